@@ -1,0 +1,60 @@
+# One entry per chore, the same here and in CI.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMPS := .stamps
+export CARGO_TERM_COLOR ?= never
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+export PIP_QUIET := 1
+
+RUST_SOURCES := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml
+ASSET_SOURCES := $(shell find tools/assets -name '*.py' 2>/dev/null)
+
+.PHONY: help setup core assets demo test test-full lint fmt bench eval golden docs clean
+help: ## what can be made
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+
+setup: $(STAMPS)/core $(STAMPS)/assets ## virtual environment, compiled core, built assets
+core: $(STAMPS)/core ## virtual environment and compiled core
+assets: $(STAMPS)/assets ## head model and networks, from the two wheels they come in
+
+$(STAMPS)/venv: pyproject.toml
+	@mkdir -p $(STAMPS)
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install -q 'maturin>=1.9,<2'
+	$(BIN)/python tools/requirements.py dev docs > $(STAMPS)/requirements.txt
+	$(BIN)/python -m pip install -q -r $(STAMPS)/requirements.txt
+	touch $@
+
+$(STAMPS)/core: $(STAMPS)/venv $(RUST_SOURCES)
+	VIRTUAL_ENV=$(CURDIR)/$(VENV) $(BIN)/maturin develop --release --quiet
+	touch $@
+
+$(STAMPS)/assets: $(STAMPS)/core $(ASSET_SOURCES)
+	$(BIN)/python -m tools.assets
+	touch $@
+
+test: setup ## every test but the slow walks, in every language
+	cargo test --release --workspace --quiet
+	$(BIN)/python -m pytest -m "not slow"
+
+test-full: setup ## every test, slow walks too
+	cargo test --release --workspace --quiet
+	$(BIN)/python -m pytest
+
+lint: $(STAMPS)/venv ## format, lint, types, directions of imports
+	cargo fmt --all --check
+	cargo clippy --release --workspace --all-targets --quiet -- -D warnings
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(MAKE) core
+	$(BIN)/pyright
+	$(BIN)/lint-imports
+
+fmt: $(STAMPS)/venv ## format everything
+	cargo fmt --all
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+clean: ## remove what was built
+	rm -rf $(VENV) $(STAMPS) target out site python/tress/head/data python/tress/_core*.so

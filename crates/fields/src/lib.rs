@@ -1,0 +1,1 @@
+//! Orientation and scalar fields on pixels and voxels: diffusion and streamlines.

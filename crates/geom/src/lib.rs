@@ -1,0 +1,1 @@
+//! Meshes, bounding volume hierarchies, frames and curves: arrays in, arrays out.

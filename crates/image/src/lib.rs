@@ -1,0 +1,1 @@
+//! Image analysis for hair: Gabor bank, confidence, tracing, matting, completion.

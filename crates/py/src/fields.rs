@@ -1,0 +1,8 @@
+//! `tress-fields` for Python.
+
+use pyo3::prelude::*;
+
+/// Adds the functions of `tress-fields` to the module.
+pub fn register(_module: &Bound<'_, PyModule>) -> PyResult<()> {
+    Ok(())
+}

@@ -1,0 +1,8 @@
+//! `tress-image` for Python.
+
+use pyo3::prelude::*;
+
+/// Adds the functions of `tress-image` to the module.
+pub fn register(_module: &Bound<'_, PyModule>) -> PyResult<()> {
+    Ok(())
+}

@@ -1,0 +1,8 @@
+//! `tress-strands` for Python.
+
+use pyo3::prelude::*;
+
+/// Adds the functions of `tress-strands` to the module.
+pub fn register(_module: &Bound<'_, PyModule>) -> PyResult<()> {
+    Ok(())
+}

@@ -1,0 +1,1 @@
+//! Visibility of strands and meshes: a GBuffer on the CPU.

@@ -1,0 +1,1 @@
+//! Strands as flat arrays; one operation a file.

@@ -1,0 +1,1 @@
+"""What every room needs: errors, reports and parameters. Imports nothing of Tress."""

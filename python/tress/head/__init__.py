@@ -1,0 +1,1 @@
+"""The statistical head: landmarks, fitting, scalp."""

@@ -1,0 +1,1 @@
+"""From pixels to layers, mattes, orientations and traced strands: arrays in, arrays out."""

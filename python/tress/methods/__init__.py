@@ -1,0 +1,1 @@
+"""Ways to make hair: each method returns a `Diff` on a `Document`."""

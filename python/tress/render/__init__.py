@@ -1,0 +1,1 @@
+"""Pictures of hair: GBuffers, styles, turntables."""

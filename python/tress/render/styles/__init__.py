@@ -1,0 +1,1 @@
+"""Shading styles: `shade(gbuffer, scene, params)`, one a file."""

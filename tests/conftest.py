@@ -1,0 +1,22 @@
+"""Fixtures that every test may ask for."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+OPEN_DATA = Path(os.environ.get("TRESS_DATA", ROOT.parent / "shared" / "data"))
+
+
+@pytest.fixture(scope="session")
+def open_data() -> Callable[[str], Path]:
+    """`open_data("portraits/001.jpg")`: a file of the open data; the test skips where it is absent."""
+
+    def path(name: str) -> Path:
+        if not (OPEN_DATA / name).exists():
+            pytest.skip(f"open data {name} is absent")
+        return OPEN_DATA / name
+
+    return path
