@@ -1,7 +1,7 @@
 """Progress, timings, figures and partial failures of long work, passed in by the caller.
 
-Libraries do not print. Whoever runs a method makes a `Report`, hands it down and reads it afterwards; a listener gets every
-event while the work goes on.
+Libraries do not print. Whoever runs a method makes a `Report`, hands it down and reads it afterwards; a
+listener gets every event while the work goes on.
 """
 
 import time
