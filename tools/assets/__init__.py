@@ -1,0 +1,1 @@
+"""Builds the assets of `tress.head` from two wheels: `python -m tools.assets`."""
