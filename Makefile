@@ -10,7 +10,7 @@ export PIP_QUIET := 1
 RUST_SOURCES := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml
 ASSET_SOURCES := $(shell find tools/assets -name '*.py' 2>/dev/null)
 
-.PHONY: help setup core assets demo test test-full lint fmt bench eval golden docs clean
+.PHONY: help setup core assets demo test test-full test-lowest lint fmt bench eval golden docs clean
 help: ## what can be made
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
@@ -57,4 +57,16 @@ fmt: $(STAMPS)/venv ## format everything
 	$(BIN)/ruff check --fix .
 
 clean: ## remove what was built
-	rm -rf $(VENV) $(STAMPS) target out site python/tress/head/data python/tress/_core*.so
+	rm -rf $(VENV) .venv-lowest $(STAMPS) target out site python/tress/head/data python/tress/_core*.so
+
+test-lowest: setup ## the Python tests against the lower bounds of the requirements
+	test -x .venv-lowest/bin/python || $(PYTHON) -m venv .venv-lowest
+	$(BIN)/python tools/requirements.py --lowest > $(STAMPS)/lowest.txt
+	.venv-lowest/bin/python -m pip install -q -r $(STAMPS)/lowest.txt 'pytest>=8.2' 'hypothesis>=6.100' 'pymatting>=1.1.12'
+	PYTHONPATH=python .venv-lowest/bin/python -m pytest -m "not slow"
+
+bench: setup ## speed, as ratios against public references in the same run
+	$(BIN)/python -m benches
+
+eval: setup ## quality on the open data
+	$(BIN)/python -m benches.eval

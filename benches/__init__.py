@@ -1,0 +1,1 @@
+"""Speed (`python -m benches`) and quality (`python -m benches.eval`)."""
