@@ -1,0 +1,46 @@
+"""`tress params`: every parameter of every stage."""
+
+from typing import Annotated
+
+import typer
+
+from tress.app.exit_codes import guarded
+
+
+@guarded
+def params(
+    stage: Annotated[str | None, typer.Argument(help="Show the parameters of this stage only.")] = None,
+    json_output: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """List the parameters that [bold]tress portrait --set stage.name=value[/] understands.
+
+    Example:  tress params depth
+    """
+    from tress.app.settings import settings
+    from tress.methods.portrait.params import PortraitParams
+
+    rows = [row for row in settings(PortraitParams()) if stage is None or row.name.split(".")[0] == stage]
+    _refuse_unknown(stage, found=bool(rows))
+    if json_output:
+        import json
+
+        typer.echo(json.dumps([vars(row) for row in rows], indent=2))
+    else:
+        _print_table(rows)
+
+
+def _refuse_unknown(stage: str | None, *, found: bool) -> None:
+    from tress.base.errors import ParameterError
+
+    if not found:
+        raise ParameterError(f"{stage} is no stage with parameters; `tress params` lists all.")
+
+
+def _print_table(rows: list) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table("parameter", "default", "range", "unit", "what it does", box=None, pad_edge=False)
+    for row in rows:
+        table.add_row(row.name, str(row.default), row.limits, row.unit, row.doc)
+    Console().print(table)
