@@ -1,0 +1,1 @@
+"""Records as USD prims: plain descriptions, one mapping a file; `stage` alone knows `pxr`."""
