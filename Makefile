@@ -70,3 +70,10 @@ bench: setup ## speed, as ratios against public references in the same run
 
 eval: setup ## quality on the open data
 	$(BIN)/python -m benches.eval
+
+demo: setup ## the main job on a real photograph, into out/demo/
+	$(BIN)/python examples/portrait_astronaut.py out/demo
+
+docs: setup ## the documentation, into site/
+	$(BIN)/python -m tools.parameters_page
+	$(BIN)/mkdocs build --quiet
