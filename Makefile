@@ -14,7 +14,7 @@ ASSET_SOURCES := $(shell find tools/assets -name '*.py' 2>/dev/null)
 help: ## what can be made
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
-setup: $(STAMPS)/core $(STAMPS)/assets ## virtual environment, compiled core, built assets
+setup: $(STAMPS)/core $(STAMPS)/assets $(STAMPS)/node ## virtual environment, compiled core, built assets, web tools
 core: $(STAMPS)/core ## virtual environment and compiled core
 assets: $(STAMPS)/assets ## head model and networks, from the two wheels they come in
 
@@ -32,6 +32,11 @@ $(STAMPS)/core: $(STAMPS)/venv $(RUST_SOURCES)
 
 $(STAMPS)/assets: $(STAMPS)/core $(ASSET_SOURCES)
 	$(BIN)/python -m tools.assets
+	touch $@
+
+$(STAMPS)/node: tests/web/package.json tests/web/package-lock.json
+	@mkdir -p $(STAMPS)
+	cd tests/web && npm ci --no-audit --no-fund --silent
 	touch $@
 
 test: setup ## every test but the slow walks, in every language

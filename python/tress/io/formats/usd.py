@@ -8,6 +8,7 @@ from pathlib import Path
 
 from tress import __version__
 from tress.base.errors import FormatError, InputError
+from tress.io.format import DOCUMENT, Format
 from tress.io.usd.mapping import prim_of, record_of
 from tress.io.usd.stage import SUFFIXES, read_stage, write_stage
 from tress.model.document import Document
@@ -37,3 +38,6 @@ def open_document(path: Path) -> Document:
         raise
     except InputError as error:
         raise FormatError(f"{path} is damaged: {error}") from error
+
+
+FORMAT = Format("usd", SUFFIXES, save_document, open_document, keeps=frozenset({DOCUMENT}))

@@ -9,17 +9,17 @@ the file is what makes a new state visible, and a crash before leaves the old fi
 # `pxr` comes without type stubs.
 
 import hashlib
-import io
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PIL import Image, UnidentifiedImageError
 from pxr import Gf, Sdf, Tf, Usd, UsdValidation, Vt
 
 from tress.base.errors import FormatError, OutputError
 from tress.io.atomic import atomic_path, write_bytes
+from tress.io.file_bytes import read_bytes
+from tress.io.png import decode_png, encode_png
 from tress.io.usd.prim import Attribute, Picture, Prim
 
 ROOT = "tress"
@@ -88,7 +88,7 @@ class _Pictures:
         digest = hashlib.sha256(repr(picture.pixels.shape).encode() + picture.pixels.tobytes()).hexdigest()[:16]
         name = f"{self._file}.{digest}.png"
         if name not in self._encoded:
-            self._encoded[name] = _png(picture.pixels)
+            self._encoded[name] = encode_png(picture.pixels)
         return f"./{TEXTURES}/{name}"
 
     def write(self) -> None:
@@ -201,19 +201,7 @@ def _read_picture(folder: Path, name: str) -> Picture:
     path = (folder / name).resolve()
     if not path.is_relative_to(folder.resolve()):
         raise FormatError(f"Picture {name!r} lies outside the folder of the file.")
-    try:
-        with Image.open(path) as image:
-            if image.mode not in ("RGB", "RGBA"):
-                raise FormatError(f"Picture {name!r} has mode {image.mode}; RGB or RGBA was expected.")
-            return Picture(np.array(image))
-    except (OSError, UnidentifiedImageError, Image.DecompressionBombError, SyntaxError) as error:
-        raise FormatError(f"Picture {name!r} is missing or damaged.") from error
-
-
-def _png(pixels: np.ndarray[Any, Any]) -> bytes:
-    buffer = io.BytesIO()
-    Image.fromarray(pixels).save(buffer, "png", compress_level=3)
-    return buffer.getvalue()
+    return Picture(decode_png(read_bytes(path), name=name))
 
 
 def _escaped(name: str) -> str:
