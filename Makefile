@@ -30,7 +30,7 @@ $(STAMPS)/core: $(STAMPS)/venv $(RUST_SOURCES)
 	VIRTUAL_ENV=$(CURDIR)/$(VENV) $(BIN)/maturin develop --release --quiet
 	touch $@
 
-$(STAMPS)/assets: $(STAMPS)/core $(ASSET_SOURCES)
+$(STAMPS)/assets: $(ASSET_SOURCES) | $(STAMPS)/core
 	$(BIN)/python -m tools.assets
 	touch $@
 
