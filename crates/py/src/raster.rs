@@ -1,8 +1,145 @@
 //! `tress-raster` for Python.
 
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use tress_raster::{GBuffer, ProjectedScene, ProjectedVertex, RasterError, SegmentFragments};
+
+type Floats<'py> = PyReadonlyArray1<'py, f32>;
+type Rows<'py> = PyReadonlyArray2<'py, f32>;
+type MeanAndWeight<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray1<f32>>);
 
 /// Adds the functions of `tress-raster` to the module.
-pub fn register(_module: &Bound<'_, PyModule>) -> PyResult<()> {
-    Ok(())
+pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(raster_project, module)?)?;
+    module.add_function(wrap_pyfunction!(raster_gbuffer, module)?)?;
+    module.add_function(wrap_pyfunction!(raster_composite, module)?)?;
+    module.add_function(wrap_pyfunction!(raster_visible_weight, module)?)?;
+    module.add_function(wrap_pyfunction!(raster_splat_residual, module)?)
+}
+
+/// Projected vertices (N, 4) of points (N, 3).
+#[pyfunction]
+fn raster_project<'py>(
+    py: Python<'py>,
+    points: Rows<'py>,
+    matrix: PyReadonlyArray2<'py, f64>,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let (points, numbers) = (points.as_slice()?.as_chunks().0, matrix.as_slice()?);
+    let matrix: [[f64; 4]; 3] = std::array::from_fn(|row| std::array::from_fn(|column| numbers[row * 4 + column]));
+    let projected = py.detach(|| tress_raster::project(points, &matrix)).map_err(refused)?;
+    let rows: Vec<[f32; 4]> = projected.iter().map(|v| [v.x, v.y, v.depth, v.scale]).collect();
+    Ok(Array2::from(rows).into_pyarray(py))
+}
+
+/// The GBuffer of projected strands and triangles, as a dictionary of arrays.
+#[pyfunction]
+fn raster_gbuffer<'py>(
+    py: Python<'py>,
+    strand_points: Rows<'py>,
+    offsets: PyReadonlyArray1<'py, i64>,
+    half_width_px: Floats<'py>,
+    alpha: Floats<'py>,
+    mesh_vertices: Rows<'py>,
+    triangles: PyReadonlyArray2<'py, u32>,
+    min_width_px: f32,
+    width: usize,
+    height: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (strand_points, mesh_vertices) = (vertices(&strand_points)?, vertices(&mesh_vertices)?);
+    let scene = ProjectedScene {
+        strand_points: &strand_points,
+        offsets: offsets.as_slice()?,
+        half_width_px: half_width_px.as_slice()?,
+        alpha: alpha.as_slice()?,
+        mesh_vertices: &mesh_vertices,
+        triangles: triangles.as_slice()?.as_chunks().0,
+        min_width_px,
+        width,
+        height,
+    };
+    let buffer = py.detach(|| tress_raster::rasterise(&scene)).map_err(refused)?;
+    as_dict(py, buffer)
+}
+
+/// Premultiplied RGBA (pixels, 4) of shaded fragments (F, 4).
+#[pyfunction]
+fn raster_composite<'py>(
+    py: Python<'py>,
+    pixel_offsets: PyReadonlyArray1<'py, i64>,
+    weight: Floats<'py>,
+    rgba: Rows<'py>,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let (offsets, weight, rgba) = (pixel_offsets.as_slice()?, weight.as_slice()?, rgba.as_slice()?.as_chunks().0);
+    let picture = py.detach(|| tress_raster::composite(offsets, weight, rgba));
+    Ok(Array2::from(picture).into_pyarray(py))
+}
+
+/// How much every point shows, in pixels.
+#[pyfunction]
+fn raster_visible_weight<'py>(
+    py: Python<'py>,
+    pixel_offsets: PyReadonlyArray1<'py, i64>,
+    kind: PyReadonlyArray1<'py, u8>,
+    primitive: PyReadonlyArray1<'py, i32>,
+    parameter: Rows<'py>,
+    weight: Floats<'py>,
+    points: usize,
+) -> PyResult<Bound<'py, PyArray1<f32>>> {
+    let fragments = SegmentFragments {
+        pixel_offsets: pixel_offsets.as_slice()?,
+        kind: kind.as_slice()?,
+        primitive: primitive.as_slice()?,
+        parameter: parameter.as_slice()?.as_chunks().0,
+        weight: weight.as_slice()?,
+    };
+    Ok(py.detach(|| tress_raster::visible_weight(&fragments, points)).into_pyarray(py))
+}
+
+/// Weighted mean (N, 3) of the pixels' values over every point, and the weights (N,).
+#[pyfunction]
+fn raster_splat_residual<'py>(
+    py: Python<'py>,
+    pixel_offsets: PyReadonlyArray1<'py, i64>,
+    kind: PyReadonlyArray1<'py, u8>,
+    primitive: PyReadonlyArray1<'py, i32>,
+    parameter: Rows<'py>,
+    weight: Floats<'py>,
+    residual: Rows<'py>,
+    pixel_weight: Floats<'py>,
+    points: usize,
+) -> PyResult<MeanAndWeight<'py>> {
+    let fragments = SegmentFragments {
+        pixel_offsets: pixel_offsets.as_slice()?,
+        kind: kind.as_slice()?,
+        primitive: primitive.as_slice()?,
+        parameter: parameter.as_slice()?.as_chunks().0,
+        weight: weight.as_slice()?,
+    };
+    let (residual, pixel_weight) = (residual.as_slice()?.as_chunks().0, pixel_weight.as_slice()?);
+    let found = py.detach(|| tress_raster::splat_residual(&fragments, residual, pixel_weight, points));
+    Ok((Array2::from(found.mean).into_pyarray(py), found.weight.into_pyarray(py)))
+}
+
+fn vertices(array: &Rows<'_>) -> PyResult<Vec<ProjectedVertex>> {
+    let vertex = |v: &[f32]| ProjectedVertex { x: v[0], y: v[1], depth: v[2], scale: v[3] };
+    Ok(array.as_slice()?.chunks_exact(4).map(vertex).collect())
+}
+
+fn as_dict(py: Python<'_>, buffer: GBuffer) -> PyResult<Bound<'_, PyDict>> {
+    let of = &buffer.fragments;
+    let dict = PyDict::new(py);
+    dict.set_item("pixel_offsets", buffer.pixel_offsets.into_pyarray(py))?;
+    dict.set_item("kind", of.iter().map(|f| f.kind as u8).collect::<Vec<_>>().into_pyarray(py))?;
+    dict.set_item("primitive", of.iter().map(|f| f.primitive as i32).collect::<Vec<_>>().into_pyarray(py))?;
+    dict.set_item("parameter", Array2::from(of.iter().map(|f| f.parameter).collect::<Vec<_>>()).into_pyarray(py))?;
+    dict.set_item("weight", of.iter().map(|f| f.weight).collect::<Vec<_>>().into_pyarray(py))?;
+    dict.set_item("depth", of.iter().map(|f| f.depth).collect::<Vec<_>>().into_pyarray(py))?;
+    Ok(dict)
+}
+
+fn refused(error: RasterError) -> PyErr {
+    PyValueError::new_err(error.to_string())
 }

@@ -1,1 +1,29 @@
 //! Visibility of strands and meshes: a GBuffer on the CPU.
+//!
+//! Everything is already projected when it comes in (`project` does it for cameras; baking passes uv coordinates), is
+//! sorted into tiles, and every tile is rasterised by one core on its own: 16 samples a pixel, each with its own depth
+//! test. What every pixel sees is then merged into fragments. No result depends on the number of cores.
+
+mod bins;
+mod composite;
+mod error;
+mod gbuffer;
+mod project;
+mod rasterise;
+mod resolve;
+mod samples;
+mod scene;
+mod segment;
+mod splat;
+mod strand_points;
+mod tile;
+mod triangle;
+
+pub use composite::composite;
+pub use error::RasterError;
+pub use gbuffer::{Fragment, GBuffer, Kind};
+pub use project::{ProjectedVertex, project};
+pub use rasterise::rasterise;
+pub use samples::SAMPLES;
+pub use scene::ProjectedScene;
+pub use splat::{SegmentFragments, VertexMean, splat_residual, visible_weight};

@@ -61,8 +61,9 @@ def signed_distances(positions: Array, *, triangles: Array, queries: Array) -> C
     """Closest points with distances that are negative inside.
 
     Inside is where the generalised winding number exceeds 1/2, so holes (the neck of a head) are closed by a gentle
-    cap; next to a hole the distance, which is still that of the surface, jumps in sign. Source: Jacobson et al. 2013, Barill
-    et al. 2018.
+    cap; next to a hole the distance, which is still that of the surface, jumps in sign.
+
+    Source: Jacobson et al. 2013, Barill et al. 2018.
     """
     return Closest(*_answer(_core.geom_signed_distances, positions, triangles, _points(queries, "queries")))
 

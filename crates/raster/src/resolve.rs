@@ -1,0 +1,95 @@
+//! From the samples of a pixel to its fragments.
+
+use crate::bins::TILE;
+use crate::gbuffer::{Fragment, Kind};
+use crate::samples::{Pattern, SAMPLES};
+use crate::segment::Segment;
+use crate::strand_points::StrandPoint;
+use crate::tile::{EMPTY, TRIANGLE_BIT, Tile};
+use crate::triangle::Triangle;
+use crate::{ProjectedScene, ProjectedVertex};
+
+/// What fragments are made from.
+pub(crate) struct Resolver<'a> {
+    pub scene: &'a ProjectedScene<'a>,
+    pub points: &'a [StrandPoint],
+    pub pattern: &'a Pattern,
+}
+
+/// Samples of a pixel that see the same primitive.
+#[derive(Clone, Copy)]
+struct Group {
+    primitive: u32,
+    count: f32,
+    x: f32,
+    y: f32,
+}
+
+impl Resolver<'_> {
+    /// Fragments of every pixel of the tile, row by row, and how many each pixel has.
+    pub fn resolve(&self, tile: &Tile, fragments: &mut Vec<Fragment>, counts: &mut Vec<u32>) {
+        for row in 0..tile.size[1] {
+            for column in 0..tile.size[0] {
+                let pixel = row as usize * TILE + column as usize;
+                let corner = [(tile.origin[0] + column) as f32, (tile.origin[1] + row) as f32];
+                let first = fragments.len();
+                self.resolve_pixel(&tile.primitive[pixel], corner, fragments);
+                fragments[first..].sort_unstable_by(|a, b| {
+                    a.depth.total_cmp(&b.depth).then((a.kind as u8, a.primitive).cmp(&(b.kind as u8, b.primitive)))
+                });
+                counts.push((fragments.len() - first) as u32);
+            }
+        }
+    }
+
+    fn resolve_pixel(&self, primitives: &[u32; SAMPLES], corner: [f32; 2], fragments: &mut Vec<Fragment>) {
+        let mut groups = [Group { primitive: EMPTY, count: 0.0, x: 0.0, y: 0.0 }; SAMPLES];
+        let mut used = 0;
+        for (i, &primitive) in primitives.iter().enumerate().filter(|(_, p)| **p != EMPTY) {
+            let known = groups[..used].iter().position(|g| g.primitive == primitive);
+            let group = &mut groups[known.unwrap_or(used)];
+            used += usize::from(known.is_none());
+            group.primitive = primitive;
+            group.count += 1.0;
+            group.x += self.pattern.x[i];
+            group.y += self.pattern.y[i];
+        }
+        fragments.extend(groups[..used].iter().filter_map(|group| self.fragment(group, corner)));
+    }
+
+    fn fragment(&self, group: &Group, corner: [f32; 2]) -> Option<Fragment> {
+        let x = corner[0] + group.x / group.count;
+        let y = corner[1] + group.y / group.count;
+        let weight = group.count / SAMPLES as f32;
+        if group.primitive & TRIANGLE_BIT == 0 {
+            return self.segment_fragment(group.primitive, x, y, weight);
+        }
+        self.triangle_fragment(group.primitive & !TRIANGLE_BIT, x, y, weight)
+    }
+
+    fn segment_fragment(&self, primitive: u32, x: f32, y: f32, weight: f32) -> Option<Fragment> {
+        let first = primitive as usize;
+        let (a, b) = (&self.points[first], &self.points[first + 1]);
+        let [t, across] = Segment::new(a, b)?.parameters(x, y);
+        let depth = a.depth + t * (b.depth - a.depth);
+        let scales = [self.scene.strand_points[first].scale, self.scene.strand_points[first + 1].scale];
+        let [_, t] = in_perspective([1.0 - t, t], scales);
+        Some(Fragment { kind: Kind::Segment, primitive, parameter: [t, across], weight, depth })
+    }
+
+    fn triangle_fragment(&self, primitive: u32, x: f32, y: f32, weight: f32) -> Option<Fragment> {
+        let vertices: [&ProjectedVertex; 3] =
+            self.scene.triangles[primitive as usize].map(|v| &self.scene.mesh_vertices[v as usize]);
+        let on_screen = Triangle::new(vertices)?.barycentric(x, y);
+        let depth = (0..3).map(|i| on_screen[i] * vertices[i].depth).sum();
+        let [_, b, c] = in_perspective(on_screen, vertices.map(|v| v.scale));
+        Some(Fragment { kind: Kind::Triangle, primitive, parameter: [b, c], weight, depth })
+    }
+}
+
+/// Weights of the vertices in space from those on the screen: w_i s_i / sum, since `scale` goes as 1 / distance.
+fn in_perspective<const N: usize>(on_screen: [f32; N], scales: [f32; N]) -> [f32; N] {
+    let scaled: [f32; N] = std::array::from_fn(|i| on_screen[i] * scales[i]);
+    let sum: f32 = scaled.iter().sum();
+    scaled.map(|weight| weight / sum)
+}

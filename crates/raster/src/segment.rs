@@ -1,0 +1,149 @@
+//! One segment of a strand in one tile.
+//!
+//! A segment is the band between its two points, as wide as the strand. Neighbours meet on the line through their common
+//! point that halves the angle between them: together they cover every sample of the strand once, so that opacity is not
+//! counted twice where segments meet. At turns of more than a right angle the band ends bluntly.
+
+use crate::bins::TILE;
+use crate::samples::{Lane, OpacityOrders, Pattern, SAMPLES};
+use crate::strand_points::StrandPoint;
+use crate::tile::Tile;
+
+/// How far the corners of a band may lie from its points, in half widths: a right-angled mitre reaches sqrt 2.
+const REACH: f32 = 1.5;
+/// Widens intervals of pixels against rounding; more pixels than needed are harmless.
+const MARGIN: f32 = 1.0 / 64.0;
+
+/// Rectangle around a segment, in pixels.
+pub(crate) fn bounds(a: &StrandPoint, b: &StrandPoint) -> ([f32; 2], [f32; 2]) {
+    let pad = REACH * a.half_width.max(b.half_width) + MARGIN;
+    ([a.x.min(b.x) - pad, a.y.min(b.y) - pad], [a.x.max(b.x) + pad, a.y.max(b.y) + pad])
+}
+
+/// A segment with its linear forms: across and along from the first point, and the clips at both ends.
+pub(crate) struct Segment<'a> {
+    a: &'a StrandPoint,
+    b: &'a StrandPoint,
+    along: [f32; 2],
+    length: f32,
+    half_width: f32,
+    nearest: f32,
+}
+
+impl<'a> Segment<'a> {
+    /// None where the segment has no length on the screen.
+    pub fn new(a: &'a StrandPoint, b: &'a StrandPoint) -> Option<Self> {
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        let length = (dx * dx + dy * dy).sqrt();
+        (length > 0.0).then(|| Self {
+            a,
+            b,
+            along: [dx / length, dy / length],
+            length,
+            half_width: a.half_width.max(b.half_width),
+            nearest: a.depth.min(b.depth),
+        })
+    }
+
+    /// Position along the segment, 0 to 1, and across, -1 to 1, of a point in pixels.
+    pub fn parameters(&self, x: f32, y: f32) -> [f32; 2] {
+        let (rx, ry) = (x - self.a.x, y - self.a.y);
+        let t = ((self.along[0] * rx + self.along[1] * ry) / self.length).clamp(0.0, 1.0);
+        let half_width = self.a.half_width + t * (self.b.half_width - self.a.half_width);
+        let across = (self.along[0] * ry - self.along[1] * rx) / half_width.max(f32::MIN_POSITIVE);
+        [t, across.clamp(-1.0, 1.0)]
+    }
+
+    /// Draws into a tile.
+    pub fn draw(&self, index: u32, tile: &mut Tile, pattern: &Pattern, orders: &OpacityOrders) {
+        let (min, max) = bounds(self.a, self.b);
+        let (columns, rows) = (tile.clip(0, min[0], max[0]), tile.clip(1, min[1], max[1]));
+        let [dx, dy] = self.along;
+        let reach = self.half_width + 0.5 * (dx.abs() + dy.abs()) + MARGIN;
+        let mut lanes: Option<SampleForms> = None;
+        for row in rows {
+            let ry = (tile.origin[1] + row) as f32 + 0.5 - self.a.y;
+            // Across is dx ry - dy rx: the columns where it stays within reach.
+            let columns = if dy.abs() > 1e-3 {
+                let (middle, spread) = (self.a.x + dx * ry / dy, reach / dy.abs());
+                let near = tile.clip(0, middle - spread - 0.5, middle + spread - 0.5);
+                near.start.max(columns.start)..near.end.min(columns.end)
+            } else {
+                columns.clone()
+            };
+            for column in columns {
+                let pixel = row as usize * TILE + column as usize;
+                if self.nearest >= tile.farthest[pixel] {
+                    continue;
+                }
+                let lanes = lanes.get_or_insert_with(|| SampleForms::new(self, pattern));
+                let corner = [(tile.origin[0] + column) as f32 - self.a.x, (tile.origin[1] + row) as f32 - self.a.y];
+                let thresholds = orders.of(self.a.row);
+                lanes.cover(self, corner, thresholds, index, &mut tile.depth[pixel], &mut tile.primitive[pixel]);
+                tile.farthest[pixel] = tile.depth[pixel].iter().copied().fold(f32::NEG_INFINITY, f32::max);
+            }
+        }
+    }
+}
+
+/// Values of the linear forms at the samples, relative to the pixel's corner.
+struct SampleForms {
+    across: Lane,
+    along: Lane,
+    after_start: Lane,
+    after_end: Lane,
+    start: [f32; 2],
+    end: [f32; 2],
+}
+
+impl SampleForms {
+    fn new(segment: &Segment, pattern: &Pattern) -> Self {
+        let [dx, dy] = segment.along;
+        let mitre = |m: [f32; 2]| if m == [0.0; 2] { segment.along } else { m };
+        let (start, end) = (mitre(segment.a.mitre), mitre(segment.b.mitre));
+        Self {
+            across: pattern.linear(-dy, dx),
+            along: pattern.linear(dx, dy),
+            after_start: pattern.linear(start[0], start[1]),
+            after_end: pattern.linear(end[0], end[1]),
+            start,
+            end,
+        }
+    }
+
+    /// Depth test and coverage of the samples of a pixel whose corner lies at `corner` from the segment's first point.
+    #[inline]
+    fn cover(
+        &self,
+        segment: &Segment,
+        corner: [f32; 2],
+        thresholds: &Lane,
+        index: u32,
+        depth: &mut Lane,
+        primitive: &mut [u32; SAMPLES],
+    ) {
+        let (a, b) = (segment.a, segment.b);
+        let [rx, ry] = corner;
+        let [dx, dy] = segment.along;
+        let (ex, ey) = (rx - (b.x - a.x), ry - (b.y - a.y));
+        let across = dx * ry - dy * rx;
+        let along = dx * rx + dy * ry;
+        let after_start = self.start[0] * rx + self.start[1] * ry;
+        let after_end = self.end[0] * ex + self.end[1] * ey;
+        let per_px = 1.0 / segment.length;
+        let width_slope = b.half_width - a.half_width;
+        let depth_slope = b.depth - a.depth;
+        let opacity_slope = b.opacity - a.opacity;
+        for i in 0..SAMPLES {
+            let t = ((along + self.along[i]) * per_px).clamp(0.0, 1.0);
+            let z = a.depth + t * depth_slope;
+            let hit = ((across + self.across[i]).abs() <= a.half_width + t * width_slope)
+                & (after_start + self.after_start[i] >= 0.0)
+                & (after_end + self.after_end[i] < 0.0)
+                & (a.opacity + t * opacity_slope > thresholds[i])
+                & (z < depth[i]);
+            depth[i] = if hit { z } else { depth[i] };
+            primitive[i] = if hit { index } else { primitive[i] };
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! From the picture back to the vertices of the strands: the transpose of shading.
+//!
+//! A fragment of a segment shows a mix of its two points, `(1 - t)` and `t`. Whatever is known of its pixel is handed back
+//! to the two points in the same shares. Sums run in the order of the fragments, so that they are the same bits always.
+
+/// Mean of the pixels in which a point shows, and how much it shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VertexMean {
+    /// Weighted mean of the pixels' values for every point; 0 where it does not show.
+    pub mean: Vec<[f32; 3]>,
+    /// Sum of the weights for every point.
+    pub weight: Vec<f32>,
+}
+
+/// Fragments of segments, as flat arrays.
+#[derive(Debug, Clone, Copy)]
+pub struct SegmentFragments<'a> {
+    /// First fragment of every pixel, and the number of fragments.
+    pub pixel_offsets: &'a [i64],
+    /// 0 where the fragment is a segment.
+    pub kind: &'a [u8],
+    /// First point of the segment.
+    pub primitive: &'a [i32],
+    /// Position along the segment, and one more number that is not used.
+    pub parameter: &'a [[f32; 2]],
+    /// Share of the pixel.
+    pub weight: &'a [f32],
+}
+
+impl SegmentFragments<'_> {
+    /// Calls `visit(pixel, point, share)` for both points of every fragment of a segment.
+    fn for_each_share(&self, mut visit: impl FnMut(usize, usize, f64)) {
+        for (pixel, range) in self.pixel_offsets.windows(2).enumerate() {
+            for i in range[0] as usize..range[1] as usize {
+                if self.kind[i] == 0 {
+                    let (first, t) = (self.primitive[i] as usize, f64::from(self.parameter[i][0]));
+                    visit(pixel, first, f64::from(self.weight[i]) * (1.0 - t));
+                    visit(pixel, first + 1, f64::from(self.weight[i]) * t);
+                }
+            }
+        }
+    }
+}
+
+/// How much every point shows in the picture, in pixels.
+pub fn visible_weight(fragments: &SegmentFragments, points: usize) -> Vec<f32> {
+    let mut sum = vec![0.0f64; points];
+    fragments.for_each_share(|_, point, share| sum[point] += share);
+    sum.into_iter().map(|s| s as f32).collect()
+}
+
+/// Weighted mean of the pixels' values over every point. `pixel_weight` is one factor a pixel.
+pub fn splat_residual(
+    fragments: &SegmentFragments,
+    residual: &[[f32; 3]],
+    pixel_weight: &[f32],
+    points: usize,
+) -> VertexMean {
+    let mut sum = vec![[0.0f64; 4]; points];
+    fragments.for_each_share(|pixel, point, share| {
+        let share = share * f64::from(pixel_weight[pixel]);
+        let entry = &mut sum[point];
+        for (channel, value) in residual[pixel].iter().enumerate() {
+            entry[channel] += share * f64::from(*value);
+        }
+        entry[3] += share;
+    });
+    let mean = |s: &[f64; 4]| if s[3] > 0.0 { [0, 1, 2].map(|c| (s[c] / s[3]) as f32) } else { [0.0; 3] };
+    VertexMean { mean: sum.iter().map(mean).collect(), weight: sum.iter().map(|s| s[3] as f32).collect() }
+}
