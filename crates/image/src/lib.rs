@@ -2,6 +2,12 @@
 
 pub mod error;
 pub mod gabor;
+pub mod matting;
+mod matting_cholesky;
+pub mod matting_foreground;
+mod matting_laplacian;
+mod matting_pyramid;
 pub mod raster_view;
 pub mod ridges;
+pub mod sparse_cg;
 pub mod trace;

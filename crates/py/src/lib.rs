@@ -1,6 +1,6 @@
 //! The Python extension module `tress._core`: conversions and GIL release, no algorithm.
 //!
-//! One file a crate: `geom.rs`, `strands.rs`, `fields.rs`, `image.rs`, `raster.rs`. Each has a `register` that adds its
+//! One file a crate: `geom.rs`, `strands.rs`, `fields.rs`, `image.rs`, `matting.rs`, `raster.rs`. Each has a `register` that adds its
 //! functions to the module. Arrays come in as contiguous `PyReadonlyArray`s and go out as fresh NumPy arrays.
 
 use pyo3::prelude::*;
@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 mod fields;
 mod geom;
 mod image;
+mod matting;
 mod raster;
 mod strands;
 
@@ -17,5 +18,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     strands::register(module)?;
     fields::register(module)?;
     image::register(module)?;
+    matting::register(module)?;
     raster::register(module)
 }

@@ -1,0 +1,68 @@
+"""What each layer looks like in this one photograph: mixtures of colour and texture, learnt from it."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tress.image.labels import BACKGROUND, BODY, FACE, HAIR, LAYER_COUNT
+from tress.image.mixture import Mixture, fitted_mixture, log_density
+from tress.image.superpixels import Superpixels
+
+_TEXTURE_SCALE: Final = 12.0
+"""Steps of Lab that a doubling-and-a-half (factor e) of the fine contrast counts as."""
+_FLOOR: Final = np.array([3.0, 2.0, 2.0, 3.0]) ** 2
+"""Variance that no mixture component falls below: L, a, b, scaled texture."""
+_COMPONENTS: Final = {BACKGROUND: 5, BODY: 5, FACE: 3, HAIR: 4}
+_OUTLIERS: Final = 0.02
+"""Share of a layer that looks like anything in the photograph."""
+_BARE_SKIN: Final = 0.15
+"""Share of the body that looks like the face: neck, shoulders, hands."""
+_SHADES: Final = ((0.85, 0.2), (0.7, 0.12))
+"""Skin in shade: factor of (L + 16, a, b), which is what less light does to Lab, and its share of the face."""
+
+
+@dataclass(frozen=True)
+class Appearance:
+    """Mixture of every layer, by label, and the one of the whole photograph (`anything`)."""
+
+    mixtures: tuple[Mixture, ...]
+    anything: Mixture
+
+
+def features(patches: Superpixels) -> NDArray[np.float64]:
+    """(N, 4) float64 of every superpixel: L, a, b and the fine texture in steps of like size."""
+    return np.column_stack([patches.lab, _TEXTURE_SCALE * patches.texture]).astype(np.float64)
+
+
+def learnt_appearance(samples: NDArray[np.float64], *, weights: NDArray[np.float64]) -> Appearance:
+    """Mixtures of all layers from `samples` (N, 4) with `weights` (N, 4 layers) >= 0."""
+    anything = fitted_mixture(samples, weights=weights.sum(axis=1), count=1, floor=_FLOOR, iterations=0)
+    learnt = [
+        fitted_mixture(samples, weights=weights[:, layer], count=_COMPONENTS[layer], floor=_FLOOR)
+        for layer in range(LAYER_COUNT)
+    ]
+    learnt[FACE] = _with_shades(learnt[FACE])
+    return Appearance(tuple(learnt), anything)
+
+
+def log_likelihood(appearance: Appearance, samples: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Natural logarithm (N, 4 layers) of how likely every layer is to look like `samples` (N, 4)."""
+    logs = np.column_stack([log_density(mixture, samples) for mixture in appearance.mixtures])
+    logs[:, BODY] = np.logaddexp(np.log(1 - _BARE_SKIN) + logs[:, BODY], np.log(_BARE_SKIN) + logs[:, FACE])
+    anything = log_density(appearance.anything, samples)
+    return np.logaddexp(np.log(1 - _OUTLIERS) + logs, np.log(_OUTLIERS) + anything[:, None])
+
+
+def _with_shades(skin: Mixture) -> Mixture:
+    lit = 1 - sum(share for _, share in _SHADES)
+    weight, mean = [lit * skin.weight], [skin.mean]
+    for factor, share in _SHADES:
+        shaded = skin.mean.copy()
+        shaded[:, 0] = factor * (shaded[:, 0] + 16) - 16
+        shaded[:, 1:3] *= factor
+        weight.append(share * skin.weight)
+        mean.append(shaded)
+    repeated = np.concatenate([skin.covariance] * (1 + len(_SHADES)))
+    return Mixture(np.concatenate(weight), np.concatenate(mean), repeated)
