@@ -1,19 +1,23 @@
 """What the user may correct before a reconstruction is run again."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
+from tress.head.landmarks import FaceLandmarks
 
 
 @dataclass(frozen=True)
 class Corrections:
     """The user's corrections, each None where the user gave none; pixels are those of the photo as the stages see it.
 
-    `landmarks`: the face's points instead of the detector's (`tress.head`); `strokes` (H, W) uint8: a layer's label,
-    255 where there is no stroke (`tress.image.strokes`); `depth_strokes`: marks of known depth.
+    `face`: which of several faces, 0 the largest. `landmarks`: the face's points instead of the detector's.
+    `strokes` (H, W) uint8: a layer's label, 255 where there is no stroke (`tress.image.strokes`). `depth_strokes`
+    (H, W) float32: depth towards the camera in metres, in the view frame; NaN where there is no stroke.
     """
 
-    landmarks: Any = None
-    strokes: np.ndarray | None = None
-    depth_strokes: np.ndarray | None = None
+    face: int | None = None
+    landmarks: FaceLandmarks | None = None
+    strokes: NDArray[np.uint8] | None = None
+    depth_strokes: NDArray[np.float32] | None = None

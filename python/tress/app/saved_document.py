@@ -1,0 +1,17 @@
+"""Documents from files named on the command line."""
+
+from pathlib import Path
+
+from tress.base.errors import FormatError, InputError
+from tress.io.formats.registry import format_of
+from tress.model.document import Document
+
+
+def opened(path: Path) -> Document:
+    """The document in `path`. Raises `InputError` where there is none, `FormatError` where its format is not read."""
+    if not path.is_file():
+        raise InputError(f"{path} does not exist; name a file that Tress wrote.")
+    form = format_of(path)
+    if form.read is None:
+        raise FormatError(f"{path} is {form.name}, which Tress writes but does not read; name the .usdc instead.")
+    return form.read(path)
