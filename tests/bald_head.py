@@ -1,4 +1,4 @@
-"""A painted photograph of a bald person: the mean head of the statistical model on a plain body, seen from the front."""
+"""A painted photograph of a bald person: the mean head of the statistical model on a plain body."""
 
 import cv2
 import numpy as np

@@ -35,6 +35,15 @@ def test_unusable_photos(tress, rooms, astronaut, what):
     assert list(results.iterdir()) == []
 
 
+def test_a_picture_without_a_face(tress, rooms, faceless):
+    photos, results = rooms
+    faceless.save(photos / "a.png")
+    said = tress("portrait", photos / "a.png", "-o", results / "out")
+    assert said.code == 2
+    assert said.err.startswith("tress: No face was found")
+    assert list(results.iterdir()) == []
+
+
 def test_json_is_all_there_is_on_standard_output(tress, rooms):
     _, results = rooms
     said = tress("portrait", results / "absent.jpg", "-o", results / "out", "--json")
@@ -46,12 +55,8 @@ def test_json_is_all_there_is_on_standard_output(tress, rooms):
     ("options", "message"),
     [
         (["--from-stage", "hat"], "hat is no stage; one of"),
-        (["--from-stage", "depth"], "is missing"),
         (["--set", "depth.wait=2"], "names no parameter"),
         (["--formats", "usdc,fbx"], "fbx"),
-        (["--strokes", "absent.json"], "absent.json"),
-        (["--landmarks", "absent.json"], "absent.json"),
-        (["--depth-strokes", "absent.json"], "absent.json"),
         (["--face", "7"], "face"),
     ],
 )

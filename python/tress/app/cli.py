@@ -7,7 +7,9 @@ from typing import Annotated
 import typer
 
 from tress import __version__
+from tress.app.convert_command import convert
 from tress.app.exit_codes import INTERRUPTED
+from tress.app.info_command import info
 from tress.app.params_command import params
 from tress.app.portrait_command import portrait
 
@@ -27,6 +29,8 @@ app = typer.Typer(
 )
 app.command()(portrait)
 app.command()(params)
+app.command()(info)
+app.command()(convert)
 
 
 def _print_version(wanted: bool) -> None:

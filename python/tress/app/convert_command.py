@@ -12,7 +12,6 @@ from tress.app.exit_codes import guarded
 def convert(
     source: Annotated[Path, typer.Argument(help="A file that Tress wrote, best the .usdc.", show_default=False)],
     target: Annotated[Path, typer.Argument(help="The file to write; its ending says the format.", show_default=False)],
-    verbose: Annotated[int, typer.Option("-v", "--verbose", count=True, help="-vv shows where an error came from.")] = 0,
 ) -> None:
     """Write a saved document in another format. What that format cannot hold is left out.
 

@@ -12,7 +12,6 @@ from tress.app.exit_codes import guarded
 def info(
     file: Annotated[Path, typer.Argument(help="A file that Tress wrote.", show_default=False)],
     json_output: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
-    verbose: Annotated[int, typer.Option("-v", "--verbose", count=True, help="-vv shows where an error came from.")] = 0,
 ) -> None:
     """Say what a saved document holds: its records, their sizes, and the parameters that it was made with.
 

@@ -110,11 +110,13 @@ def portrait(
 
       tress portrait me.jpg -o out/ --set depth.weight_smooth=4 --from-stage depth
     """
-    from tress.app.portrait_job import PortraitOptions, run_portrait
     from tress.app.screen import screen
     from tress.app.threads import limit_threads
 
     limit_threads(threads)
+    from tress.app.portrait_job import PortraitOptions, run_portrait
+    from tress.methods.portrait.corrections_files import CorrectionFiles
+
     options = PortraitOptions(
         photo=photo,
         folder=output,
@@ -125,10 +127,7 @@ def portrait(
         turntable=turntable,
         settings=tuple(set_ or ()),
         from_stage=from_stage,
-        strokes=strokes,
-        landmarks=landmarks,
-        depth_strokes=depth_strokes,
-        face=face,
+        corrections=CorrectionFiles(face, landmarks, strokes, depth_strokes),
     )
     with screen(verbose=verbose, quiet=quiet, json_output=json_output) as shown:
         shown.results(run_portrait(options, report=shown.report))

@@ -1,25 +1,19 @@
 """One photograph to one folder: the job that the command runs, and that a batch can run many of."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
-from tress.app.settings import with_settings
+from tress.app.settings import settings, with_settings
 from tress.base.report import Report
+from tress.io.atomic import OutputFolder
+from tress.io.formats.registry import format_of
 from tress.io.photo import Photo, read_photo
 from tress.io.stage_cache import StageCache
-from tress.methods.portrait.corrections import Corrections
+from tress.methods.portrait.corrections_files import CorrectionFiles, read_corrections
+from tress.methods.portrait.delivery import STAGES_FOLDER, deliver
 from tress.methods.portrait.params import PortraitParams
 from tress.methods.portrait.pipeline import reconstruct
-
-STAGES_FOLDER = "stages"
-
-
-@dataclass(frozen=True)
-class Delivery:
-    """What was written: a folder and the files in it, relative to it."""
-
-    folder: Path
-    files: tuple[Path, ...]
 
 
 @dataclass(frozen=True)
@@ -35,26 +29,36 @@ class PortraitOptions:
     turntable: bool = True
     settings: tuple[str, ...] = ()
     from_stage: str | None = None
-    strokes: Path | None = None
-    landmarks: Path | None = None
-    depth_strokes: Path | None = None
-    face: int | None = None
+    corrections: CorrectionFiles = field(default_factory=CorrectionFiles)
+
+
+@dataclass(frozen=True)
+class Delivery:
+    """What was written: a folder and the files in it, relative to it."""
+
+    folder: Path
+    files: tuple[Path, ...]
 
 
 def run_portrait(options: PortraitOptions, *, report: Report) -> Delivery:
     """Reads the photo, reconstructs, delivers. Raises the errors of all three; then nothing was written."""
+    formats = [format_of(Path(f"hair.{ending}")) for ending in options.formats]
     params = _params(options)
     photo = _read(options, report)
-    reconstruct(
-        photo.pixels,
-        alpha=photo.alpha,
-        params=params,
-        corrections=Corrections(),
-        start_from=options.from_stage,
-        cache=StageCache(options.folder / STAGES_FOLDER),
-        report=report,
-    )
-    return Delivery(options.folder, ())
+    with OutputFolder(options.folder) as output:
+        reconstruction = reconstruct(
+            photo.pixels,
+            alpha=photo.alpha,
+            params=params,
+            corrections=read_corrections(options.corrections),
+            start_from=options.from_stage,
+            cache=StageCache(options.folder / STAGES_FOLDER),
+            report=report,
+        )
+        facts = _facts(options, photo, params)
+        deliver(reconstruction, output.path, formats=formats, facts=facts, report=report)
+        files = tuple(sorted(file.relative_to(output.path) for file in output.path.rglob("*") if file.is_file()))
+    return Delivery(options.folder, files)
 
 
 def _read(options: PortraitOptions, report: Report) -> Photo:
@@ -70,3 +74,18 @@ def _read(options: PortraitOptions, report: Report) -> Photo:
 
 def _params(options: PortraitOptions) -> PortraitParams:
     return with_settings(replace(PortraitParams(), seed=options.seed), options.settings)
+
+
+def _facts(options: PortraitOptions, photo: Photo, params: PortraitParams) -> dict[str, Any]:
+    """What the report says of the job: the photo, the seed, the corrections and every parameter."""
+    return {
+        "photo": {
+            "file": photo.path.name,
+            "original_size": [photo.original_width, photo.original_height],
+            "size": [photo.pixels.shape[1], photo.pixels.shape[0]],
+        },
+        "seed": params.seed,
+        "from_stage": options.from_stage,
+        "corrections": {name: str(value) for name, value in vars(options.corrections).items() if value is not None},
+        "parameters": {row.name: row.default for row in settings(params)},
+    }

@@ -16,10 +16,28 @@ from tress.base.report import Report
 from tress.io.format import Format
 from tress.io.stage_cache import StageCache
 from tress.methods.portrait.pipeline import STAGES, Reconstruction
-from tress.model.recipe import flat_parameters
 
 STAGES_FOLDER: Final = "stages"
 _VERSIONS_OF: Final = ("numpy", "scipy", "opencv-python-headless", "scikit-image", "pillow", "usd-core")
+
+
+def deliver(
+    reconstruction: Reconstruction,
+    folder: Path,
+    *,
+    formats: Sequence[Format],
+    facts: Mapping[str, Any],
+    report: Report,
+) -> None:
+    """Writes every file of a reconstruction into `folder`, which exists. Raises `OSError` and `OutputError`.
+
+    `formats` says which files the hair is written to, `facts` what the report says besides times and figures.
+    """
+    with report.stage("stages"):
+        deliver_stages(reconstruction, folder)
+    with report.stage("formats"):
+        deliver_formats(reconstruction, folder, formats=formats)
+    deliver_report(report, folder, facts=facts)
 
 
 def deliver_stages(reconstruction: Reconstruction, folder: Path) -> None:
@@ -60,6 +78,3 @@ def versions() -> dict[str, str]:
 def write_picture(pixels: np.ndarray, path: Path) -> None:
     """`pixels` (H, W, 3 | 4) uint8 sRGB as PNG."""
     Image.fromarray(pixels).save(path, compress_level=4)
-
-
-__all__ = ["deliver_formats", "deliver_report", "deliver_stages", "flat_parameters", "versions", "write_picture"]

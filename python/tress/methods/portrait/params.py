@@ -1,10 +1,14 @@
 """The parameters of all stages in one record."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+from tress.base.params import Params, param
+from tress.head.fit import FitParams
 
 
 @dataclass(frozen=True)
-class PortraitParams:
+class PortraitParams(Params):
     """Parameters of a reconstruction: one field a stage, named like the stage, and the seed of all that is random."""
 
-    seed: int = 0
+    seed: int = param(0, low=0, high=2**63 - 1, doc="Seed of all that is random.")
+    head: FitParams = field(default_factory=FitParams)

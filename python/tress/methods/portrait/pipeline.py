@@ -1,33 +1,69 @@
 """The order of the stages: photograph in, reconstruction out."""
 
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tress.base.report import Report
 from tress.io.stage_cache import StageCache
 from tress.methods.portrait.corrections import Corrections
+from tress.methods.portrait.document import portrait_document
+from tress.methods.portrait.head import PortraitHead, portrait_head
 from tress.methods.portrait.params import PortraitParams
-from tress.methods.portrait.stage import Stage, Work, run_stages
+from tress.methods.portrait.pictures import mesh_picture
+from tress.methods.portrait.stage import Stage, Work, fingerprints, run_stages
+from tress.model.document import Document
 
-STAGES: Final[tuple[Stage, ...]] = ()
-"""Every stage in order; a new one is its file and a line here."""
+
+@dataclass(frozen=True)
+class Reconstruction:
+    """The finished `work` with the result of every stage, its `document`, and their fingerprints."""
+
+    work: Work
+    document: Document
+    fingerprints: dict[str, str]
 
 
 def reconstruct(
-    pixels: np.ndarray,
+    pixels: NDArray[np.uint8],
     *,
-    alpha: np.ndarray | None = None,
+    alpha: NDArray[np.uint8] | None = None,
     params: PortraitParams | None = None,
     corrections: Corrections | None = None,
     start_from: str | None = None,
     cache: StageCache | None = None,
     report: Report | None = None,
-) -> Work:
+) -> Reconstruction:
     """Hair from one portrait photograph `pixels` (H, W, 3) uint8 sRGB, upright.
 
     `alpha` (H, W) uint8 says where the person is, if the photo is a cut-out. With `start_from`, the results of the
-    stages before it come from `cache`.
+    stages before it come from `cache`. Raises `NoFaceError`, `NoHairError`, and `InputError` where cache and inputs do
+    not fit together.
     """
     work = Work(pixels, alpha, params or PortraitParams(), corrections or Corrections())
-    return run_stages(STAGES, work, start_from=start_from, cache=cache, report=report or Report())
+    done = run_stages(STAGES, work, start_from=start_from, cache=cache, report=report or Report())
+    return Reconstruction(done, portrait_document(done), fingerprints(STAGES, work))
+
+
+def _head(work: Work, report: Report) -> PortraitHead:
+    return portrait_head(
+        work.pixels,
+        alpha=work.alpha,
+        face=work.corrections.face,
+        landmarks=work.corrections.landmarks,
+        params=work.params.head,
+        report=report,
+    )
+
+
+def _head_picture(work: Work) -> NDArray[np.uint8]:
+    head: PortraitHead = work["head"]
+    matrix = head.fitted.xy_from_view
+    xy_px = head.fitted.positions_in_view @ matrix[:2, :3].T + matrix[:2, 3]
+    return mesh_picture(work.pixels, xy_px=xy_px, triangles=head.fitted.triangles, landmarks_px=head.landmarks.points)
+
+
+STAGES: Final[tuple[Stage, ...]] = (Stage("head", _head, _head_picture, corrections=("face", "landmarks")),)
+"""Every stage in order; a new one is its file and a line here."""
