@@ -60,6 +60,10 @@ def test_the_callers_array_is_neither_frozen_nor_shared():
         ({"point_attributes": {"wind": np.ones(5, "f2")}}, "dtype float16; one of float32"),
         ({"point_attributes": {"two words": np.ones(5)}}, "letters, digits"),
         ({"strand_attributes": {"visible": [1, 0]}}, "bool was expected"),
+        (
+            {"point_attributes": {"id": np.arange(5)}, "strand_attributes": {"id": np.arange(2)}},
+            "'id' is given per point and per strand",
+        ),
     ],
 )
 def test_strands_refuse(changes, message):
@@ -90,6 +94,10 @@ def test_no_strands_at_all_is_a_state():
             "float32",
         ),
         (lambda: Recipe(method=""), "a name"),
+        (lambda: Recipe(method="a\0b"), "without NUL"),
+        (lambda: Recipe(method="a", inputs={"\ud800": 1}), "Unicode"),
+        (lambda: Recipe(method="a", seed=2**63), "64 bits"),
+        (lambda: Recipe(method="a", parameters={"x": float("nan")}), "not a number"),
         (lambda: Recipe(method="portrait", parameters={"sizes": [1, 2]}), "number, truth value or text"),
     ],
 )
@@ -101,8 +109,13 @@ def test_other_records_refuse(make, message):
 def test_equality_is_bit_by_bit():
     assert two_strands() == two_strands()
     assert two_strands() != two_strands(points=POINTS + np.float32(1e-6) * (POINTS == 0))
-    assert two_strands(points=-0.0 * POINTS) != two_strands(points=0.0 * POINTS)
     assert two_strands() != Camera(xy_from_world=AFFINE, width=1, height=1)
+
+
+def test_negative_zero_is_zero():
+    camera = Camera(xy_from_world=[[-0.0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 1]], width=1, height=1)
+    assert not np.signbit(camera.xy_from_world).any()
+    assert str(Recipe(method="a", parameters={"x": -0.0}).parameters["x"]) == "0.0"
 
 
 def test_records_are_picklable():

@@ -64,7 +64,8 @@ class Record:
     """Base of the records: derive, decorate with `@dataclass(frozen=True, eq=False)`, declare fields.
 
     Arrays are converted to the declared dtype where that loses no kind (integers may become floats, not the reverse),
-    are contiguous and read-only, and hold finite numbers. Two records are equal if their types and all bits agree.
+    are contiguous and read-only, and hold finite numbers, negative zero
+    as zero. Two records are equal if their types and all bits agree.
     Raises `InputError` on construction where a field does not fit its declaration.
     """
 
@@ -166,7 +167,9 @@ def _checked_names(where: str, value: Any) -> FrozenMap[Scalar]:
     for name, entry in value.items():
         if not isinstance(name, str) or not name or type(entry) not in (bool, int, float, str):
             raise InputError(f"{where}[{name!r}] is {entry!r}; a number, truth value or text was expected.")
-    return FrozenMap(value)
+        _check_storable(where, name)
+        _check_storable(f"{where}[{name!r}]", entry)
+    return FrozenMap({name: entry + 0.0 if isinstance(entry, float) else entry for name, entry in value.items()})
 
 
 def _checked_plain(where: str, value: Any, kind: Any) -> Any:
@@ -174,7 +177,22 @@ def _checked_plain(where: str, value: Any, kind: Any) -> Any:
         return int(value)
     if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
         raise InputError(f"{where} is {value!r}; {getattr(kind, '__name__', kind)} was expected.")
-    return value
+    _check_storable(where, value)
+    return value + 0.0 if isinstance(value, float) else value
+
+
+def _check_storable(where: str, value: Any) -> None:
+    """Refuses what files cannot hold: not a number, integers beyond 64 bits, text that is no Unicode or holds NUL."""
+    if isinstance(value, int) and not -(2**63) <= value < 2**63:
+        raise InputError(f"{where} is {value}; a whole number of 64 bits was expected.")
+    if isinstance(value, float) and value != value:
+        raise InputError(f"{where} is not a number.")
+    if isinstance(value, str) and ("\0" in value or (not value.isprintable() and _is_broken(value))):
+        raise InputError(f"{where} is {value!r}; Unicode text without NUL was expected.")
+
+
+def _is_broken(text: str) -> bool:
+    return any("\ud800" <= letter <= "\udfff" for letter in text)
 
 
 def _converted(where: str, value: Any, dtype: np.dtype[Any]) -> np.ndarray[Any, Any]:
@@ -189,7 +207,14 @@ def _converted(where: str, value: Any, dtype: np.dtype[Any]) -> np.ndarray[Any, 
             found = found.astype(dtype)
     if dtype.kind == "f" and not np.isfinite(found).all():
         raise InputError(f"{where} holds numbers that are not finite.")
-    return frozen(found)
+    return frozen(_without_negative_zero(found))
+
+
+def _without_negative_zero(values: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """USD keeps one of two equal arrays, and 0 equals -0: with one zero, equal is the same bits."""
+    if values.dtype.kind != "f" or not np.any((values == 0) & np.signbit(values)):
+        return values
+    return values + values.dtype.type(0)
 
 
 def _check_name(where: str, name: object) -> None:

@@ -24,8 +24,9 @@ class Strands(Record):
 
     Standard point attributes: `color` (N, 3) float32 linear RGB, `alpha` (N,) float32 in [0, 1], `radius` (N,) float32
     metres. Standard strand attributes: `root_triangle` (S,) int32 (-1: not rooted), `root_barycentric` (S, 3) float32,
-    `visible` (S,) bool (traced in the photograph). Others may be added: float32, float64, int32, int64, uint8 or bool.
-    Raises `InputError` for wrong shapes, offsets out of order and numbers that are not finite.
+    `visible` (S,) bool (traced in the photograph). Others may be added: float32, float64, int32, int64, uint8
+    or bool; a name is used once. Raises `InputError` for wrong shapes, offsets out of order and
+    numbers that are not finite.
 
     >>> strands = Strands(points=[[0, 0, 0], [0, 1, 0], [0, 2, 0]], offsets=[0, 3])
     >>> strands.count, strands.points.dtype.name
@@ -52,9 +53,11 @@ class Strands(Record):
         return np.diff(self.offsets)
 
     def check(self) -> None:
-        """Offsets start at 0, rise by at least 2 and end at the number of points."""
+        """Offsets start at 0, rise by at least 2 and end at the number of points; names are given once."""
         if len(self.offsets) == 0 or self.offsets[0] != 0 or self.offsets[-1] != len(self.points):
             raise InputError(f"Strands.offsets must run from 0 to the number of points, {len(self.points)}.")
+        if twice := set(self.point_attributes) & set(self.strand_attributes):
+            raise InputError(f"Attribute {min(twice)!r} is given per point and per strand; one of them was expected.")
         if len(self.offsets) > 1 and self.lengths.min() < 2:
             strand = int(np.argmin(self.lengths))
             raise InputError(f"Strand {strand} has {self.lengths[strand]} points; at least 2 were expected.")

@@ -43,6 +43,9 @@ def strands_of(prim: Prim) -> Strands:
     points, counts = (prim.attributes.get(name) for name in ("points", "curveVertexCounts"))
     if points is None or counts is None:
         raise FormatError(f"Curves {prim.name!r} have no points or no vertex counts.")
+    lengths = exact_values(counts)
+    if lengths.dtype != np.int32:
+        raise FormatError(f"Curves {prim.name!r} have counts of type {lengths.dtype}; whole numbers were expected.")
     point_attributes = attributes_of(prim, interpolation="vertex")
     for name, standard in (("primvars:displayColor", "color"), ("primvars:displayOpacity", "alpha")):
         if name in prim.attributes:
@@ -51,7 +54,7 @@ def strands_of(prim: Prim) -> Strands:
         point_attributes["radius"] = exact_values(prim.attributes["widths"]) / np.float32(2)
     return Strands(
         points=exact_values(points),
-        offsets=np.concatenate([[0], np.cumsum(exact_values(counts), dtype=np.int64)]),
+        offsets=np.concatenate([[0], np.cumsum(lengths, dtype=np.int64)]),
         point_attributes=point_attributes,
         strand_attributes=attributes_of(prim, interpolation="uniform"),
     )

@@ -44,9 +44,9 @@ def record_of(prim: Prim) -> Record:
     kind = next((kind for kind in RECORDS if kind.__name__ == name), None)
     if kind is None:
         raise FormatError(f"Prim {prim.name!r} holds a record of type {name!r}, which this version does not know.")
-    if mapped := MAPPINGS.get(kind):
-        return mapped.record(prim)
     try:
+        if mapped := MAPPINGS.get(kind):
+            return mapped.record(prim)
         return kind(**record_fields(prim, kind, nested=record_of))
     except TypeError as error:
         raise FormatError(f"Prim {prim.name!r} does not hold all fields of a {name}.") from error

@@ -192,6 +192,8 @@ def _read_attributes(spec: Sdf.PrimSpec, folder: Path) -> Iterator[tuple[str, At
 def _plain_value(kind: Sdf.ValueTypeName, value: Any, folder: Path) -> Any:
     if isinstance(value, Sdf.AssetPath):
         return _read_picture(folder, value.path)
+    if isinstance(value, Sdf.ValueBlock):
+        return None
     if kind.isArray and value is not None:
         return tuple(value) if isinstance(value, Vt.TokenArray | Vt.StringArray) else np.array(value)
     return value
