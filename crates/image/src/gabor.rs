@@ -78,6 +78,20 @@ impl GaborBank {
         self.orientations
     }
 
+    /// Responses of every pixel: `orientations` planes, one after the other.
+    pub fn all_responses(&self, image: Plane<'_>) -> Result<Vec<f32>, ImageError> {
+        image.check(image.values.len())?;
+        let (width, pixels) = (image.width, image.values.len());
+        let mut by_pixel = vec![0.0; pixels * self.orientations];
+        by_pixel.par_chunks_mut(width * self.orientations).enumerate().for_each(|(y, row)| {
+            let mut scratch = self.scratch();
+            for (x, out) in row.chunks_mut(self.orientations).enumerate() {
+                self.responses(image, x, y, &mut scratch, out);
+            }
+        });
+        Ok((0..self.orientations).flat_map(|k| by_pixel.iter().skip(k).step_by(self.orientations).copied()).collect())
+    }
+
     /// Responses F(θ_k) of the pixel (x, y), one an orientation. Pixels outside the image repeat its border.
     pub fn responses(&self, image: Plane<'_>, x: usize, y: usize, scratch: &mut Scratch, out: &mut [f32]) {
         self.fold(image, x, y, scratch);
@@ -191,8 +205,8 @@ pub struct Oriented {
 
 /// The strand direction with the largest response and its confidence (Chai et al. 2012, eq. 3), at masked pixels.
 ///
-/// The best of the bank's angles is refined by the parabola through its two neighbours.
-pub fn orient(image: Plane<'_>, mask: &[bool], bank: &GaborBank) -> Result<Oriented, ImageError> {
+/// With `between_bins`, the best of the bank's angles is refined by the parabola through its two neighbours.
+pub fn orient(image: Plane<'_>, mask: &[bool], bank: &GaborBank, between_bins: bool) -> Result<Oriented, ImageError> {
     image.check(mask.len())?;
     let mut angle = vec![f32::NAN; mask.len()];
     let mut weight = vec![0.0; mask.len()];
@@ -202,7 +216,7 @@ pub fn orient(image: Plane<'_>, mask: &[bool], bank: &GaborBank) -> Result<Orien
             let mut responses = vec![0.0; bank.orientations];
             for x in (0..image.width).filter(|x| mask[y * image.width + x]) {
                 bank.responses(image, x, y, &mut scratch, &mut responses);
-                (angle[x], weight[x]) = best(&responses);
+                (angle[x], weight[x]) = best(&responses, between_bins);
             }
         },
     );
@@ -210,7 +224,7 @@ pub fn orient(image: Plane<'_>, mask: &[bool], bank: &GaborBank) -> Result<Orien
 }
 
 /// Strand direction and confidence from the responses of one pixel.
-fn best(responses: &[f32]) -> (f32, f32) {
+fn best(responses: &[f32], between_bins: bool) -> (f32, f32) {
     let count = responses.len();
     let peak = (0..count).fold(0, |peak, k| if responses[k] > responses[peak] { k } else { peak });
     let sum: f32 = (0..count)
@@ -222,7 +236,7 @@ fn best(responses: &[f32]) -> (f32, f32) {
         .sum();
     let (before, after) = (responses[(peak + count - 1) % count], responses[(peak + 1) % count]);
     let bend = before - 2.0 * responses[peak] + after;
-    let shift = if bend < -1e-12 { 0.5 * (before - after) / bend } else { 0.0 };
+    let shift = if between_bins && bend < -1e-12 { 0.5 * (before - after) / bend } else { 0.0 };
     let normal = std::f32::consts::PI * (peak as f32 + shift) / count as f32;
     (((normal + std::f32::consts::FRAC_PI_2).rem_euclid(std::f32::consts::PI)), sum.sqrt())
 }

@@ -1,0 +1,132 @@
+"""Which way the strands run in a picture: a sparse orientation with confidence, by a bank of Gabor kernels.
+
+Source: Chai et al. 2012, section 3.2.1. The angle published there is the kernel's; ours is the strand's, which runs
+along the kernel's long axis.
+"""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tress.base.color import linear_to_srgb, luminance, srgb_to_linear
+from tress.base.errors import InputError
+from tress.base.params import Params, choice, param
+from tress.kernel.image import GaborSizes, orient
+
+
+@dataclass(frozen=True)
+class OrientParams(Params):
+    """Settings of `orientation_map`; the defaults are the paper's where it gives them."""
+
+    sigma_u: float = param(1.8, low=0.3, high=16.0, unit="px", doc="Width of the kernels across the strand.")
+    sigma_v: float = param(2.4, low=0.3, high=16.0, unit="px", doc="Length of the kernels along the strand.")
+    wavelength: float = param(4.0, low=2.0, high=32.0, unit="px", doc="Distance of neighbouring strands.")
+    orientations: int = param(32, low=4, high=128, doc="Kernels over half a turn; an even number.")
+    kernel_scale: float = param(
+        0.0,
+        low=0.0,
+        high=4.0,
+        doc="Factor on the kernels' sizes; 0 lets it follow the size of the hair in the picture.",
+    )
+    rounds: int = param(1, low=0, high=4, doc="How often the confidence is filtered again, to drop false ridges.")
+    white_percentile: float = param(
+        98.0, low=50.0, high=100.0, unit="%", doc="Share of the hair's pixels whose confidence is at most 1."
+    )
+    margin_px: int = param(2, low=0, high=64, unit="px", doc="How far beyond the mask orientation is measured.")
+    polarity: str = choice("bright", options=("bright", "dark", "both"), doc="Which ridges of brightness are strands.")
+    angles: str = choice(
+        "between", options=("between", "bins"), doc="Whether angles lie between those of the kernels or on them."
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class OrientationMap:
+    """Which way strands run: `angle` (H, W) float32, radians in [0, π), pixel axes with y down, NaN where not given.
+
+    `confidence` (H, W) float32 in [0, 1], 0 where no angle is given. `kernel_scale`: factor on the kernels' sizes.
+    """
+
+    angle: NDArray[np.float32]
+    confidence: NDArray[np.float32]
+    kernel_scale: float = 1.0
+
+    def __post_init__(self) -> None:
+        if self.angle.ndim != 2 or self.angle.shape != self.confidence.shape:
+            raise InputError(
+                f"angle is {self.angle.shape} and confidence {self.confidence.shape}; one (H, W) was expected."
+            )
+        for array in (self.angle, self.confidence):
+            array.flags.writeable = False
+
+
+def brightness(pixels: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """What the kernels look at: luminance (H, W) float32 in [0, 1] of a photo (H, W, 3), coded as in sRGB.
+
+    The coding gives dark hair its contrast; linear light would only show highlights.
+    """
+    return linear_to_srgb(luminance(srgb_to_linear(pixels)))
+
+
+def orientation_map(
+    image: NDArray[np.floating], *, mask: NDArray[np.bool_], params: OrientParams = OrientParams()
+) -> OrientationMap:
+    """Strand directions and confidence of a brightness image (H, W), in and near the hair `mask` (H, W) bool.
+
+    Confidence is scaled by a high percentile of its values in the mask, so that one glint does not rescale the picture.
+    Takes about 0.1 s for a region of 500 x 500 px on two cores. Raises `InputError` where shapes do not fit.
+    """
+    scale = params.kernel_scale or natural_scale(mask)
+    sizes = GaborSizes(params.sigma_u, params.sigma_v, params.wavelength).scaled(scale)
+    near = _grown(mask, params.margin_px)
+    angle, confidence = _first_round(np.asarray(image, np.float32), near, sizes, params)
+    confidence = _scaled(confidence, mask, params.white_percentile)
+    for _ in range(params.rounds):
+        angle, confidence = _oriented(confidence, near, sizes, params)
+        confidence = _scaled(confidence, mask, params.white_percentile)
+    return OrientationMap(angle, confidence, scale)
+
+
+def natural_scale(mask: NDArray[np.bool_]) -> float:
+    """Factor on the paper's kernel sizes, in [0.75, 3], for hair that covers `mask` (H, W).
+
+    The paper's sizes are for hair regions of some 500 x 500 px, of which hair covers about 350 x 350: the factor is the
+    square root of the area in units of that.
+    """
+    return float(np.clip(np.sqrt(np.count_nonzero(mask)) / 350.0, 0.75, 3.0))
+
+
+def _first_round(
+    image: NDArray[np.float32], near: NDArray[np.bool_], sizes: GaborSizes, params: OrientParams
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Orientation from the picture: of bright ridges, of dark ones, or of the more confident at each pixel."""
+    found = []
+    if params.polarity != "dark":
+        found.append(_oriented(image, near, sizes, params))
+    if params.polarity != "bright":
+        found.append(_oriented(-image, near, sizes, params))
+    if len(found) == 1:
+        return found[0]
+    (bright, bright_weight), (dark, dark_weight) = found
+    darker = dark_weight > bright_weight
+    return np.where(darker, dark, bright), np.where(darker, dark_weight, bright_weight)
+
+
+def _oriented(
+    image: NDArray[np.float32], near: NDArray[np.bool_], sizes: GaborSizes, params: OrientParams
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    between = params.angles == "between"
+    return orient(image, mask=near, sizes=sizes, orientations=params.orientations, between_bins=between)
+
+
+def _scaled(weight: NDArray[np.float32], mask: NDArray[np.bool_], percentile: float) -> NDArray[np.float32]:
+    white = np.percentile(weight[mask], percentile) if mask.any() else 0.0
+    return np.clip(weight / white, 0, 1).astype(np.float32) if white > 1e-6 else np.zeros_like(weight)
+
+
+def _grown(mask: NDArray[np.bool_], margin_px: int) -> NDArray[np.bool_]:
+    if margin_px == 0:
+        return mask
+    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * margin_px + 1, 2 * margin_px + 1))
+    return cv2.dilate(mask.astype(np.uint8), disc) > 0
