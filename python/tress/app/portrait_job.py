@@ -50,7 +50,7 @@ def run_portrait(options: PortraitOptions, *, report: Report) -> Delivery:
             photo.pixels,
             alpha=photo.alpha,
             params=params,
-            corrections=read_corrections(options.corrections),
+            corrections=read_corrections(options.corrections, photo=photo),
             start_from=options.from_stage,
             cache=StageCache(options.folder / STAGES_FOLDER),
             report=report,

@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 from tress.base.errors import InputError, NoFaceError
 from tress.base.report import Report
 from tress.head.detector import OpenCvFaceDetector, find_faces
-from tress.head.face import FaceBox
 from tress.head.face_mesh import OpenCvLandmarkModel, locate_landmarks
 from tress.head.fit import FitParams, FittedHead, fit_head
 from tress.head.landmarks import FaceLandmarks
@@ -57,19 +56,23 @@ def portrait_head(
 
 
 def _detected(pixels: NDArray[np.uint8], *, face: int | None, report: Report) -> FaceLandmarks:
-    faces = sorted(find_faces(pixels, detector=OpenCvFaceDetector()), key=lambda found: -found.size)
+    model = OpenCvLandmarkModel()
+    found = [locate_landmarks(pixels, box, model=model) for box in find_faces(pixels, detector=OpenCvFaceDetector())]
+    faces = sorted((points for points in found if points.score >= _LEAST_SCORE), key=_size, reverse=True)
     report.number("faces", len(faces))
     if not faces:
         raise NoFaceError(f"No face was found in the photo; {_HELP}.")
-    points = locate_landmarks(pixels, _chosen(faces, face, report), model=OpenCvLandmarkModel())
-    if points.score < _LEAST_SCORE:
-        raise NoFaceError(f"A face was suspected (score {points.score:.2f}) but not confirmed; {_HELP}.")
-    return points
+    return _chosen(faces, face, report)
 
 
-def _chosen(faces: list[FaceBox], face: int | None, report: Report) -> FaceBox:
+def _chosen(faces: list[FaceLandmarks], face: int | None, report: Report) -> FaceLandmarks:
     if face is not None and face >= len(faces):
         raise InputError(f"--face {face} is not there: {len(faces)} found, counted from 0, the largest first.")
     if face is None and len(faces) > 1:
         report.warn(f"{len(faces)} faces were found and the largest was taken; --face 1 takes the next.")
     return faces[face or 0]
+
+
+def _size(face: FaceLandmarks) -> float:
+    x0, y0, x1, y1 = face.box
+    return max(x1 - x0, y1 - y0)

@@ -4,6 +4,8 @@ from dataclasses import dataclass, field
 
 from tress.base.params import Params, param
 from tress.head.fit import FitParams
+from tress.image.layers import LayerParams
+from tress.image.matte import MatteParams
 
 
 @dataclass(frozen=True)
@@ -12,3 +14,5 @@ class PortraitParams(Params):
 
     seed: int = param(0, low=0, high=2**63 - 1, doc="Seed of all that is random.")
     head: FitParams = field(default_factory=FitParams)
+    layers: LayerParams = field(default_factory=LayerParams)
+    matte: MatteParams = field(default_factory=MatteParams)

@@ -6,13 +6,18 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from tress.base.errors import NoHairError
 from tress.base.report import Report
+from tress.image.layers import Layers
+from tress.image.matte import Matte
 from tress.io.stage_cache import StageCache
 from tress.methods.portrait.corrections import Corrections
 from tress.methods.portrait.document import portrait_document
 from tress.methods.portrait.head import PortraitHead, portrait_head
+from tress.methods.portrait.layers import has_hair, layers_stage
+from tress.methods.portrait.matte import matte_stage
 from tress.methods.portrait.params import PortraitParams
-from tress.methods.portrait.pictures import mesh_picture
+from tress.methods.portrait.pictures import layers_picture, matte_picture, mesh_picture
 from tress.methods.portrait.stage import Stage, Work, fingerprints, run_stages
 from tress.model.document import Document
 
@@ -65,5 +70,43 @@ def _head_picture(work: Work) -> NDArray[np.uint8]:
     return mesh_picture(work.pixels, xy_px=xy_px, triangles=head.fitted.triangles, landmarks_px=head.landmarks.points)
 
 
-STAGES: Final[tuple[Stage, ...]] = (Stage("head", _head, _head_picture, corrections=("face", "landmarks")),)
+def _layers(work: Work, report: Report) -> Layers:
+    head: PortraitHead = work["head"]
+    layers = layers_stage(
+        work.pixels,
+        landmarks=head.landmarks,
+        person=head.person,
+        strokes=work.corrections.strokes,
+        params=work.params.layers,
+        report=report,
+    )
+    if not has_hair(layers, landmarks=head.landmarks):
+        raise NoHairError("No hair was found in the photo; if there is some, mark it with --strokes.")
+    return layers
+
+
+def _layers_picture(work: Work) -> NDArray[np.uint8]:
+    return layers_picture(work.pixels, label=work["layers"].label)
+
+
+def _matte(work: Work, report: Report) -> Matte:
+    return matte_stage(
+        work.pixels,
+        layers=work["layers"],
+        landmarks=work["head"].landmarks,
+        strokes=work.corrections.strokes,
+        params=work.params.matte,
+        report=report,
+    )
+
+
+def _matte_picture(work: Work) -> NDArray[np.uint8]:
+    return matte_picture(work["matte"].alpha, foreground=work["matte"].foreground)
+
+
+STAGES: Final[tuple[Stage, ...]] = (
+    Stage("head", _head, _head_picture, corrections=("face", "landmarks")),
+    Stage("layers", _layers, _layers_picture, corrections=("strokes",)),
+    Stage("matte", _matte, _matte_picture),
+)
 """Every stage in order; a new one is its file and a line here."""
