@@ -173,7 +173,7 @@ def test_truncated_files_are_refused(tmp_path, cut, text):
         ("int64 tress:width = 1000", 'string tress:width = "x"', "int was expected"),
         ("float[] primvars:scalp", "half[] primvars:scalp", "dtype float16"),
         ("int[] curveVertexCounts = [3, 4]", "float[] curveVertexCounts = [3.0, 4.5]", "whole numbers"),
-        ("int64 tress:height = 800", "", "not hold all fields"),
+        ("custom int64 tress:height = 800", "", "not hold all fields"),
     ],
 )
 def test_damaged_documents_are_refused(tmp_path, old, new, message):

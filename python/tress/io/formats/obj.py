@@ -187,10 +187,10 @@ class _File:
         uv = [corner.split("/")[1] for corner in corners if corner.count("/") and corner.split("/")[1]]
         if len(numbers) < 3:
             raise ValueError("a face has three corners")
-        part.triangles += [[numbers[0], a, b] for a, b in itertools.pairwise(numbers)]
+        part.triangles += [[numbers[0], a, b] for a, b in itertools.pairwise(numbers[1:])]
         if len(uv) == len(corners):
             places = [_index(number, len(self.coordinates)) for number in uv]
-            part.corners += [[places[0], a, b] for a, b in itertools.pairwise(places)]
+            part.corners += [[places[0], a, b] for a, b in itertools.pairwise(places[1:])]
 
     def _vertex(self, corner: str) -> int:
         return _index(corner.split("/")[0], len(self.vertices))
