@@ -74,7 +74,9 @@ def portrait(
     ] = None,
     face: Annotated[
         int | None,
-        typer.Option(min=0, help="Which face, where there are several: 0 is the largest.", rich_help_panel=_CORRECT),
+        typer.Option(
+            min=0, help="Which face, where there are several, from the left; 0 is the first.", rich_help_panel=_CORRECT
+        ),
     ] = None,
     threads: Annotated[
         int | None,

@@ -1,6 +1,6 @@
 """The user's corrections from files, in pixels of the photo as the user has it, to those that the stages see."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import cv2
@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tress.base.errors import InputError
+from tress.head.hand_points import HandPoints, read_hand_points
+from tress.head.landmarks import FaceLandmarks
 from tress.image.strokes import read_strokes
 from tress.io.photo import Photo
 from tress.methods.portrait.corrections import Corrections
@@ -25,7 +27,21 @@ class CorrectionFiles:
 
 def read_corrections(files: CorrectionFiles, *, photo: Photo) -> Corrections:
     """The corrections for `photo`. Raises `InputError` where a file cannot be used."""
-    return Corrections(face=files.face, strokes=None if files.strokes is None else _strokes(files.strokes, photo))
+    return Corrections(
+        face=files.face,
+        landmarks=None if files.landmarks is None else _landmarks(files.landmarks, photo),
+        strokes=None if files.strokes is None else _strokes(files.strokes, photo),
+    )
+
+
+def _landmarks(path: Path, photo: Photo) -> HandPoints:
+    """The points at the size of the stages."""
+    height, width = photo.pixels.shape[:2]
+    scale = np.array([width / photo.original_width, height / photo.original_height])
+    points = read_hand_points(path)
+    if isinstance(points, FaceLandmarks):
+        return replace(points, points=points.points * np.array([*scale, scale[0]], np.float32))
+    return {name: (x * float(scale[0]), y * float(scale[1])) for name, (x, y) in points.items()}
 
 
 def _strokes(path: Path, photo: Photo) -> NDArray[np.uint8]:

@@ -6,6 +6,8 @@ from tress.base.params import Params, param
 from tress.head.fit import FitParams
 from tress.image.layers import LayerParams
 from tress.image.matte import MatteParams
+from tress.image.orient import OrientParams
+from tress.image.trace import TraceParams
 
 
 @dataclass(frozen=True)
@@ -16,3 +18,5 @@ class PortraitParams(Params):
     head: FitParams = field(default_factory=FitParams)
     layers: LayerParams = field(default_factory=LayerParams)
     matte: MatteParams = field(default_factory=MatteParams)
+    orientation: OrientParams = field(default_factory=OrientParams)
+    trace: TraceParams = field(default_factory=TraceParams)

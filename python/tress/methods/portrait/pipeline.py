@@ -6,19 +6,30 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from tress.base.color import linear_to_srgb8
 from tress.base.errors import NoHairError
 from tress.base.report import Report
 from tress.image.layers import Layers
 from tress.image.matte import Matte
+from tress.image.orient import OrientationMap
+from tress.image.trace import TracedStrands
 from tress.io.stage_cache import StageCache
 from tress.methods.portrait.corrections import Corrections
 from tress.methods.portrait.document import portrait_document
-from tress.methods.portrait.head import PortraitHead, portrait_head
+from tress.methods.portrait.head import PortraitHead, head_stage
 from tress.methods.portrait.layers import has_hair, layers_stage
 from tress.methods.portrait.matte import matte_stage
+from tress.methods.portrait.orientation import orientation
 from tress.methods.portrait.params import PortraitParams
-from tress.methods.portrait.pictures import layers_picture, matte_picture, mesh_picture
+from tress.methods.portrait.pictures import (
+    layers_picture,
+    matte_picture,
+    mesh_picture,
+    orientation_picture,
+    strands_picture,
+)
 from tress.methods.portrait.stage import Stage, Work, fingerprints, run_stages
+from tress.methods.portrait.trace import trace
 from tress.model.document import Document
 
 
@@ -53,7 +64,7 @@ def reconstruct(
 
 
 def _head(work: Work, report: Report) -> PortraitHead:
-    return portrait_head(
+    return head_stage(
         work.pixels,
         alpha=work.alpha,
         face=work.corrections.face,
@@ -104,9 +115,33 @@ def _matte_picture(work: Work) -> NDArray[np.uint8]:
     return matte_picture(work["matte"].alpha, foreground=work["matte"].foreground)
 
 
+def _orientation(work: Work, report: Report) -> OrientationMap:
+    return orientation(work.pixels, alpha=work["matte"].alpha, params=work.params.orientation, report=report)
+
+
+def _orientation_picture(work: Work) -> NDArray[np.uint8]:
+    found: OrientationMap = work["orientation"]
+    return orientation_picture(found.angle, confidence=found.confidence)
+
+
+def _trace(work: Work, report: Report) -> TracedStrands:
+    matte: Matte = work["matte"]
+    return trace(
+        work["orientation"], alpha=matte.alpha, foreground=matte.foreground, params=work.params.trace, report=report
+    )
+
+
+def _trace_picture(work: Work) -> NDArray[np.uint8]:
+    traced: TracedStrands = work["trace"]
+    colors = linear_to_srgb8(traced.color)
+    return strands_picture(traced.points, offsets=traced.offsets, colors=colors, shape=work.pixels.shape[:2])
+
+
 STAGES: Final[tuple[Stage, ...]] = (
     Stage("head", _head, _head_picture, corrections=("face", "landmarks")),
     Stage("layers", _layers, _layers_picture, corrections=("strokes",)),
     Stage("matte", _matte, _matte_picture),
+    Stage("orientation", _orientation, _orientation_picture),
+    Stage("trace", _trace, _trace_picture),
 )
 """Every stage in order; a new one is its file and a line here."""
