@@ -1,12 +1,13 @@
 """The camera of a photograph."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from tress.base.errors import InputError
 from tress.model.record import Record, array
+from tress.model.similarity import similarity
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +32,12 @@ class Camera(Record):
             raise InputError(f"Camera.xy_from_world has last row {self.xy_from_world[2]}; 0 0 0 1 was expected.")
         if self.width <= 0 or self.height <= 0:
             raise InputError(f"Camera is {self.width} x {self.height} pixels; positive numbers were expected.")
+
+    def transformed(self, new_from_old: np.ndarray[Any, Any]) -> "Camera":
+        """The camera elsewhere, that sees of the transformed world what it saw before."""
+        old_from_new = np.linalg.inv(similarity(new_from_old).matrix)
+        xy_from_new = np.vstack([self.xy_from_world[:2] @ old_from_new, [0, 0, 0, 1]])
+        return replace(self, xy_from_world=xy_from_new)
 
     def project(self, points_in_world: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
         """(N, 2) float64 pixels of (N, 3) points in metres."""

@@ -1,6 +1,6 @@
 """A head fitted to a photograph."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -39,3 +39,7 @@ class Head(Record):
     def evaluated(self, document: "Document", time: float) -> Mesh:
         """The head's mesh."""
         return self.mesh
+
+    def transformed(self, new_from_old: np.ndarray[Any, Any]) -> "Head":
+        """The head elsewhere."""
+        return replace(self, mesh=self.mesh.transformed(new_from_old))

@@ -1,13 +1,14 @@
 """A triangle mesh."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tress.base.errors import InputError
 from tress.model.record import Record, array, attributes
+from tress.model.similarity import similarity
 from tress.model.texture import Texture
 
 if TYPE_CHECKING:
@@ -43,3 +44,7 @@ class Mesh(Record):
     def evaluated(self, document: "Document", time: float) -> "Mesh":
         """The mesh itself."""
         return self
+
+    def transformed(self, new_from_old: Array) -> "Mesh":
+        """The mesh elsewhere."""
+        return replace(self, positions=similarity(new_from_old).points(self.positions))

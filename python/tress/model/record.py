@@ -84,6 +84,13 @@ class Record:
         """What there is to see of this record at `time` (seconds), or None. For records to override."""
         return None
 
+    def transformed(self, new_from_old: np.ndarray[Any, Any]) -> "Record":
+        """The record after a rotation, shift and even scaling (4, 4). For records that have a place to override.
+
+        Raises `InputError` where the record has no place, or the matrix does anything else.
+        """
+        raise InputError(f"A {type(self).__name__} has no place in space and cannot be transformed.")
+
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):
             return NotImplemented

@@ -1,13 +1,14 @@
 """Hair as strands: polylines from root to tip, flat arrays."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tress.base.errors import InputError
 from tress.model.record import Record, array, attributes
+from tress.model.similarity import similarity
 
 if TYPE_CHECKING:
     from tress.model.document import Document
@@ -65,3 +66,11 @@ class Strands(Record):
     def evaluated(self, document: "Document", time: float) -> "Strands":
         """The strands themselves."""
         return self
+
+    def transformed(self, new_from_old: Array) -> "Strands":
+        """The strands elsewhere; the radius grows with the scale."""
+        move = similarity(new_from_old)
+        point_attributes = dict(self.point_attributes)
+        if "radius" in point_attributes:
+            point_attributes["radius"] = point_attributes["radius"] * np.float32(move.scale)
+        return replace(self, points=move.points(self.points), point_attributes=point_attributes)
