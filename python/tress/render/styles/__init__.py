@@ -1,1 +1,9 @@
-"""Shading styles: `shade(gbuffer, scene, params)`, one a file."""
+"""Shading styles, one a file. A new one is its file and a line here."""
+
+from typing import Final
+
+from tress.render.style import Style
+from tress.render.styles.fibre import FibreStyle
+from tress.render.styles.photo import PhotoStyle
+
+STYLES: Final[tuple[type[Style], ...]] = (PhotoStyle, FibreStyle)

@@ -1,0 +1,54 @@
+"""The scene from all around, frame by frame."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from tress.base.params import Params, param
+from tress.base.report import Report
+from tress.render.flat_scene import FlatScene
+from tress.render.gbuffer import rasterise
+from tress.render.picture import premultiplied_rgba, srgb_rgb
+from tress.render.style import Style
+from tress.render.views import framed, pivot, turned
+
+Array = np.ndarray[Any, Any]
+
+BACKDROP = np.array([0.50, 0.50, 0.51], np.float32)
+"""Linear light grey (sRGB 188): black hair and white hair both read against it."""
+
+
+@dataclass(frozen=True)
+class TurntableParams(Params):
+    """Size and number of the frames."""
+
+    frames: int = param(48, low=1, high=2000, doc="Frames of one turn.")
+    width: int = param(480, low=16, high=4096, unit="px", doc="Width of a frame; even, for the video.")
+    height: int = param(600, low=16, high=4096, unit="px", doc="Height of a frame; even, for the video.")
+    min_width_px: float = param(1.0, low=0.1, high=8, unit="px", doc="Least width of a strand.")
+
+
+def turntable(
+    scene: FlatScene, *, style: Style, params: TurntableParams | None = None, report: Report | None = None
+) -> Iterator[Array]:
+    """Frames (height, width, 3) uint8 sRGB of one turn about the upright axis, from the front, over light grey.
+
+    Frames are made when they are asked for. Raises `InputError` for an empty scene.
+    """
+    settings = params or TurntableParams()
+    camera = framed(scene, width=settings.width, height=settings.height)
+    centre = pivot(scene)
+    for i in range(settings.frames):
+        view = turned(camera, angle_rad=2 * np.pi * i / settings.frames, pivot_in_world=centre)
+        gbuffer = rasterise(
+            scene,
+            xy_from_world=view.xy_from_world,
+            width=view.width,
+            height=view.height,
+            min_width_px=settings.min_width_px,
+        )
+        yield srgb_rgb(premultiplied_rgba(gbuffer, style=style), background=BACKDROP)
+        if report is not None:
+            report.progress((i + 1) / settings.frames)
