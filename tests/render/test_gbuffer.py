@@ -13,12 +13,12 @@ from tress.render.gbuffer import hair_coverage, hair_fragments, rasterise, visib
 
 
 def test_hair_hides_the_wall_behind_it_and_not_before_it():
-    assert hair_coverage(drawn([fringe(depth=0.01)], [wall()])).min() == 1
-    assert hair_coverage(drawn([fringe(depth=-0.05)], [wall()])).max() == 0
+    assert hair_coverage(drawn([fringe(radius=4e-3, depth=0.01)], [wall()])).min() == 1
+    assert hair_coverage(drawn([fringe(radius=4e-3, depth=-0.05)], [wall()])).max() == 0
 
 
 def test_a_bias_brings_hair_out_of_the_surface():
-    strands = fringe(depth=-0.011)
+    strands = fringe(radius=4e-3, depth=-0.011)
     assert hair_coverage(drawn([strands], [wall()])).max() == 0
     assert hair_coverage(drawn([strands], [wall()], strand_bias_m=0.012)).min() == 1
 
@@ -26,7 +26,7 @@ def test_a_bias_brings_hair_out_of_the_surface():
 def test_bias_is_metres_in_perspective_too():
     # Camera at z = 1, looking along -z.
     camera = np.array([[400.0, 0, -40, 40], [0, -400.0, -30, 30], [0, 0, -1, 1]])
-    strands = fringe(depth=-0.021)
+    strands = fringe(radius=4e-3, depth=-0.021)
     assert hair_coverage(drawn([strands], [wall()], camera=camera, strand_bias_m=0.010)).max() == 0
     assert hair_coverage(drawn([strands], [wall()], camera=camera, strand_bias_m=0.022)).min() == 1
 
