@@ -2,11 +2,13 @@
 
 pub mod error;
 pub mod gabor;
+pub mod gabor_kernel;
 pub mod matting;
 mod matting_cholesky;
 pub mod matting_foreground;
 mod matting_laplacian;
 mod matting_pyramid;
+pub mod orientation;
 pub mod raster_view;
 pub mod ridges;
 pub mod sparse_cg;

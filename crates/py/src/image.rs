@@ -3,7 +3,9 @@
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use tress_image::gabor::{GaborBank, GaborParams, orient};
+use tress_image::gabor::GaborBank;
+use tress_image::gabor_kernel::GaborParams;
+use tress_image::orientation::orient;
 use tress_image::raster_view::Plane;
 use tress_image::ridges::seeds;
 use tress_image::trace::{TraceParams, trace};
@@ -42,13 +44,13 @@ fn image_orient<'py>(
     py: Python<'py>,
     image: Plane32<'py>,
     mask: Mask<'py>,
-    sizes: (f64, f64, f64),
+    sizes: Vec<(f64, f64, f64)>,
     orientations: usize,
     between_bins: bool,
 ) -> PyResult<Orientation<'py>> {
-    let bank = bank(sizes, orientations)?;
+    let banks: Vec<GaborBank> = sizes.into_iter().map(|sizes| bank(sizes, orientations)).collect::<PyResult<_>>()?;
     let (view, mask) = (plane(&image)?, mask.as_slice()?);
-    let found = py.detach(|| orient(view, mask, &bank, between_bins)).map_err(refused)?;
+    let found = py.detach(|| orient(view, mask, &banks, between_bins)).map_err(refused)?;
     let shape = [view.height, view.width];
     Ok((found.angle.into_pyarray(py).reshape(shape)?, found.weight.into_pyarray(py).reshape(shape)?))
 }

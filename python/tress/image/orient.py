@@ -117,7 +117,7 @@ def _oriented(
     image: NDArray[np.float32], near: NDArray[np.bool_], sizes: GaborSizes, params: OrientParams
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     between = params.angles == "between"
-    return orient(image, mask=near, sizes=sizes, orientations=params.orientations, between_bins=between)
+    return orient(image, mask=near, sizes=[sizes], orientations=params.orientations, between_bins=between)
 
 
 def _scaled(weight: NDArray[np.float32], mask: NDArray[np.bool_], percentile: float) -> NDArray[np.float32]:

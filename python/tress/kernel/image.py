@@ -4,7 +4,7 @@ Images are (H, W) float32, row by row; points are (x, y) in pixels, the first pi
 Every function raises `InputError` for wrong shapes, numbers that are not finite and settings that cannot work.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -55,14 +55,14 @@ def orient(
     image: Array,
     *,
     mask: Array,
-    sizes: GaborSizes = GaborSizes(),
+    sizes: Sequence[GaborSizes] = (GaborSizes(),),
     orientations: int = 32,
     between_bins: bool = True,
 ) -> tuple[Array, Array]:
     """Strand direction (H, W) float32 in [0, π), NaN outside `mask`, and its confidence before scaling, 0 outside.
 
-    Bright ridges of `image` are found; each pixel costs one run of the bank, but only inside `mask` (H, W) bool.
-    `between_bins` refines the best kernel's angle by a parabola. Source: Chai et al. 2012, eq. 2 and 3.
+    Bright ridges of `image` are found, only inside `mask` (H, W) bool. Of the banks with the given `sizes`, each pixel
+    takes the one that answers most strongly. `between_bins` refines the best kernel's angle by a parabola. Source: Chai et al. 2012, eq. 2 and 3.
 
     >>> stripes = np.tile(np.cos(np.arange(40) * np.pi / 2), (40, 1))
     >>> angle, _ = orient(stripes, mask=np.ones((40, 40), bool))
@@ -71,7 +71,8 @@ def orient(
     """
     values = _plane(image, "image")
     inside = _mask(mask, values)
-    return _answer(_core.image_orient, values, inside, _sizes(sizes), int(orientations), bool(between_bins))
+    banks = [_sizes(one) for one in sizes]
+    return _answer(_core.image_orient, values, inside, banks, int(orientations), bool(between_bins))
 
 
 def ridge_seeds(angle: Array, *, confidence: Array, high: float, epsilon: float, reach_px: float) -> Array:
