@@ -55,8 +55,8 @@ class Fragments:
 def project(points: Array, *, xy_from_points: Array) -> Array:
     """Projected vertices (N, 4) float32 of `points` (N, 3) by the matrix (3, 4), [u w, v w, w] = M [x, y, z, 1].
 
-    >>> project([[0, 0.1, 2]], xy_from_points=[[500, 0, 0, 50], [0, -500, 0, 60], [0, 0, 0, 1]]).tolist()
-    [[50.0, 10.0, -2.0, 500.0]]
+    >>> project([[0, 0.125, 2]], xy_from_points=[[500, 0, 0, 50], [0, -500, 0, 60], [0, 0, 0, 1]]).tolist()
+    [[50.0, -2.5, -2.0, 500.0]]
     """
     matrix = checked(xy_from_points, name="xy_from_points", dtype=np.float64, shape=(3, 4))
     try:
