@@ -12,7 +12,8 @@ from tress.image.superpixels import Superpixels
 
 _TEXTURE_SCALE: Final = 12.0
 """Steps of Lab that a doubling-and-a-half (factor e) of the fine contrast counts as."""
-_FLOOR: Final = np.array([3.0, 2.0, 2.0, 3.0]) ** 2
+_GRAIN_SCALE: Final = 15.0
+_FLOOR: Final = np.array([3.0, 2.0, 2.0, 3.0, 3.0]) ** 2
 """Variance that no mixture component falls below: L, a, b, scaled texture."""
 _COMPONENTS: Final = {BACKGROUND: 5, BODY: 5, FACE: 3, HAIR: 4}
 _OUTLIERS: Final = 0.02
@@ -20,7 +21,7 @@ _OUTLIERS: Final = 0.02
 _BARE_SKIN: Final = 0.15
 """Share of the body that looks like the face: neck, shoulders, hands."""
 _SHADES: Final = ((0.85, 0.2), (0.7, 0.12))
-"""Skin in shade: factor of (L + 16, a, b), which is what less light does to Lab, and its share of the face."""
+"""Skin and hair in shade: factor of (L + 16, a, b), as less light does it, and its share of the layer."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,8 @@ class Appearance:
 
 def features(patches: Superpixels) -> NDArray[np.float64]:
     """(N, 4) float64 of every superpixel: L, a, b and the fine texture in steps of like size."""
-    return np.column_stack([patches.lab, _TEXTURE_SCALE * patches.texture]).astype(np.float64)
+    fine = [_TEXTURE_SCALE * patches.texture, _GRAIN_SCALE * patches.grain]
+    return np.column_stack([patches.lab, *fine]).astype(np.float64)
 
 
 def learnt_appearance(samples: NDArray[np.float64], *, weights: NDArray[np.float64]) -> Appearance:
@@ -43,7 +45,8 @@ def learnt_appearance(samples: NDArray[np.float64], *, weights: NDArray[np.float
         fitted_mixture(samples, weights=weights[:, layer], count=_COMPONENTS[layer], floor=_FLOOR)
         for layer in range(LAYER_COUNT)
     ]
-    learnt[FACE] = _with_shades(learnt[FACE])
+    for layer in (FACE, HAIR):
+        learnt[layer] = _with_shades(learnt[layer])
     return Appearance(tuple(learnt), anything)
 
 
@@ -55,14 +58,14 @@ def log_likelihood(appearance: Appearance, samples: NDArray[np.float64]) -> NDAr
     return np.logaddexp(np.log(1 - _OUTLIERS) + logs, np.log(_OUTLIERS) + anything[:, None])
 
 
-def _with_shades(skin: Mixture) -> Mixture:
-    lit = 1 - sum(share for _, share in _SHADES)
-    weight, mean = [lit * skin.weight], [skin.mean]
+def _with_shades(lit: Mixture) -> Mixture:
+    rest = 1 - sum(share for _, share in _SHADES)
+    weight, mean = [rest * lit.weight], [lit.mean]
     for factor, share in _SHADES:
-        shaded = skin.mean.copy()
+        shaded = lit.mean.copy()
         shaded[:, 0] = factor * (shaded[:, 0] + 16) - 16
         shaded[:, 1:3] *= factor
-        weight.append(share * skin.weight)
+        weight.append(share * lit.weight)
         mean.append(shaded)
-    repeated = np.concatenate([skin.covariance] * (1 + len(_SHADES)))
+    repeated = np.concatenate([lit.covariance] * (1 + len(_SHADES)))
     return Mixture(np.concatenate(weight), np.concatenate(mean), repeated)

@@ -25,6 +25,8 @@ from tress.image.color import require_photograph
 from tress.image.cut import two_label_cut
 from tress.image.guided_filter import guided_filter
 from tress.image.labels import BACKGROUND, BODY, FACE, HAIR, LAYER_COUNT
+from tress.image.mixture import fitted_mixture, log_density
+from tress.image.reach import reach
 from tress.image.strokes import NO_STROKE
 from tress.image.superpixels import Superpixels, mean_over, superpixels
 
@@ -42,12 +44,15 @@ class LayerParams(Params):
     compactness: float = param(8.0, low=0.1, high=100.0, doc="Roundness of the superpixels.")
     rounds: int = param(4, low=1, high=20, doc="Times that appearance is learnt and the layers are cut.")
     prior_weight: float = param(1.0, low=0.0, high=10.0, doc="Weight of the location prior's logarithm.")
-    look_weight: float = param(0.6, low=0.0, high=10.0, doc="Weight of colour and texture, as logarithm of likelihood.")
+    look_weight: float = param(0.8, low=0.0, high=10.0, doc="Weight of colour and texture, as logarithm of likelihood.")
     most_look: float = param(
         4.0, low=0.1, high=100.0, doc="Most that colour and texture can say for or against a layer."
     )
-    smoothness: float = param(2.0, low=0.0, high=100.0, doc="Cost of a border between like superpixels.")
+    smoothness: float = param(2.5, low=0.0, high=100.0, doc="Cost of a border between like superpixels.")
     contrast: float = param(8.0, low=0.1, high=100.0, unit="Lab", doc="Difference at which a border costs 1/e.")
+    reach_weight: float = param(0.5, low=0.0, high=10.0, doc="Weight of the way from sure hair to a patch.")
+    reach_bonus: float = param(1.5, low=0.0, high=10.0, doc="What being within reach says for hair.")
+    most_reach: float = param(6.0, low=0.0, high=100.0, doc="Most that being out of reach says against hair.")
     edge_radius: int = param(5, low=1, high=64, unit="px", doc="Reach of the last fitting to the photograph's edges.")
 
 
@@ -130,10 +135,12 @@ def _cut_layers(
     border = _border_cost(patches, params)
     weights = _first_weights(samples, prior, stroke, patches)
     label = prior.argmax(axis=1).astype(np.uint8)
+    roots = weights[:, HAIR].copy()
     cost = -np.log(prior)
     for number in range(params.rounds):
         look = log_likelihood(learnt_appearance(samples, weights=weights), samples)
         cost = _costs(look, prior, stroke, params)
+        cost = _with_reach(cost, roots, stroke, patches, prior, params)
         label = _cut_in_steps(cost, patches.edges, border, final=number == params.rounds - 1)
         weights = _weights_of_cut(label, prior, stroke, patches)
     return label, cost
@@ -146,10 +153,43 @@ def _first_weights(
     seeds = patches.area[:, None].astype(np.float64) * np.maximum(prior - 0.4, 0) ** 2
     seeds = _with_strokes(seeds, stroke, patches)
     look = log_likelihood(learnt_appearance(samples, weights=seeds), samples)
-    foreign = look - np.maximum(look[:, [FACE]], look[:, [BACKGROUND]])
-    for layer in (HAIR, BODY):
-        seeds[:, layer] *= 1 / (1 + np.exp(-np.clip(foreign[:, layer], -30, 30)))
+    seeds[:, HAIR] *= _share(look, HAIR, (FACE, BACKGROUND))
+    look = log_likelihood(learnt_appearance(samples, weights=seeds), samples)
+    seeds[:, BODY] *= _share(look, BODY, (FACE, BACKGROUND)) * np.maximum(1 - _likeness(samples, look[:, HAIR]), 0.02)
     return _with_strokes(seeds, stroke, patches)
+
+
+def _share(look: NDArray[np.float64], layer: int, others: tuple[int, ...]) -> NDArray[np.float64]:
+    ahead = look[:, layer] - look[:, list(others)].max(axis=1)
+    return 1 / (1 + np.exp(-np.clip(ahead, -30, 30)))
+
+
+def _likeness(samples: NDArray[np.float64], look: NDArray[np.float64]) -> NDArray[np.float64]:
+    """How much better (0 to 1) a layer explains every sample than the photograph as a whole does."""
+    whole = fitted_mixture(
+        samples, weights=np.ones(len(samples)), count=1, floor=np.ones(samples.shape[1]), iterations=0
+    )
+    return 1 / (1 + np.exp(-np.clip(look - log_density(whole, samples) - 1.0, -30, 30)))
+
+
+def _with_reach(
+    cost: NDArray[np.float64],
+    seeds: NDArray[np.float64],
+    stroke: NDArray[np.uint8],
+    patches: Superpixels,
+    prior: NDArray[np.float64],
+    params: LayerParams,
+) -> NDArray[np.float64]:
+    """Costs (N, 4) with what it takes to get to a patch from the hair's seeds added to the cost of hair."""
+    behind = cost[:, HAIR] - cost[:, [BACKGROUND, BODY, FACE]].min(axis=1)
+    toll = np.maximum(behind, 0)
+    start = (seeds > 0.3 * seeds.max()) & (behind < 0)
+    way = reach(toll, edges=patches.edges, start=start | (stroke == HAIR)) - toll
+    cost = cost.copy()
+    cost[:, HAIR] += np.minimum(params.reach_weight * way, params.most_reach)
+    cost[:, BODY] += params.reach_bonus * (way < 1) * (prior[:, HAIR] > 0.1) * (1 - np.minimum(way, 1))
+    cost[stroke == HAIR, HAIR] = 0
+    return cost
 
 
 def _with_strokes(weights: NDArray[np.float64], stroke: NDArray[np.uint8], patches: Superpixels) -> NDArray[np.float64]:

@@ -14,6 +14,7 @@ from skimage.segmentation import slic
 from tress.image.color import lab_of_srgb
 
 _ITERATIONS = 4
+_FLAT_ENERGY = 4.0
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,7 @@ class Superpixels:
     center: NDArray[np.float32]
     lab: NDArray[np.float32]
     texture: NDArray[np.float32]
+    grain: NDArray[np.float32]
     edges: NDArray[np.int32]
     border: NDArray[np.float32]
 
@@ -59,8 +61,9 @@ def superpixels(image: NDArray[np.uint8], *, count: int, compactness: float) -> 
     number = int(label.max()) + 1
     area = np.bincount(label.ravel(), minlength=number).astype(np.float32)
     texture = np.log(mean_over(label, _fine_contrast(lab[..., 0]), area) + 0.3)
+    grain = mean_over(label, _grain(lab[..., 0]), area)
     edges, border = _neighbours(label, number)
-    return Superpixels(label, area, _centers(label, area), mean_over(label, lab, area), texture, edges, border)
+    return Superpixels(label, area, _centers(label, area), mean_over(label, lab, area), texture, grain, edges, border)
 
 
 def mean_over(label: NDArray[np.int32], values: NDArray[np.float32], area: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -75,6 +78,15 @@ def mean_over(label: NDArray[np.int32], values: NDArray[np.float32], area: NDArr
 def _fine_contrast(lightness: NDArray[np.float32]) -> NDArray[np.float32]:
     detail = np.abs(lightness - cv2.GaussianBlur(lightness, (0, 0), 1.5))
     return cv2.GaussianBlur(detail, (0, 0), 2.0)  # type: ignore[return-value]
+
+
+def _grain(lightness: NDArray[np.float32]) -> NDArray[np.float32]:
+    """How much all fine edges around a pixel run the same way, in [0, 1]: coherence of the structure tensor."""
+    across = cv2.Sobel(lightness, cv2.CV_32F, 1, 0)
+    down = cv2.Sobel(lightness, cv2.CV_32F, 0, 1)
+    tensor = cv2.GaussianBlur(np.dstack([across * across, down * down, across * down]), (0, 0), 4.0)
+    along = np.hypot(tensor[..., 0] - tensor[..., 1], 2 * tensor[..., 2])
+    return along / (tensor[..., 0] + tensor[..., 1] + _FLAT_ENERGY)
 
 
 def _centers(label: NDArray[np.int32], area: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -28,17 +28,20 @@ _CRANIUM_RADII: Final = np.array([0.45, 0.58, 0.57])
 """Half breadth, height, length of the cranium."""
 _CRANIUM_ABOVE_EARS: Final = 0.22
 _CRANIUM_BEHIND_EARS: Final = 0.12
+_EAR_BEHIND_SIDE: Final = 0.12
+_EAR_RADIUS: Final = 0.15
 
 
 @dataclass(frozen=True)
 class FaceFrame:
     """The head's frame in the picture: `axes` (3, 3) rows right, up, towards the camera, of unit length, in px
-    directions (x, y, z); `height_px` from chin to forehead; `eyes` (2,) px; `cranium` (2,) px and `spread` (2, 2) px²,
-    the centre and the matrix of the outline ellipse of the bare cranium."""
+    directions (x, y, z); `height_px` from chin to forehead; `eyes` (2,) px, between the eyes; `ears` (2, 2) px;
+    `cranium` (2,) px and `spread` (2, 2) px², the centre and the matrix of the outline ellipse of the bare cranium."""
 
     axes: NDArray[np.float64]
     height_px: float
     eyes: NDArray[np.float64]
+    ears: NDArray[np.float64]
     cranium: NDArray[np.float64]
     spread: NDArray[np.float64]
 
@@ -54,11 +57,12 @@ def face_frame(landmarks: FaceLandmarks) -> FaceFrame:
     right = across / np.linalg.norm(across)
     forward = np.cross(right, up) * (-1 if np.cross(right, up)[2] < 0 else 1)
     axes = np.stack([right, up, forward])
-    ears = (points[_LEFT_SIDE] + points[_RIGHT_SIDE]) / 2
-    center = ears + height * (_CRANIUM_ABOVE_EARS * up - _CRANIUM_BEHIND_EARS * forward)
+    sides = points[[_RIGHT_SIDE, _LEFT_SIDE]]
+    ears = sides - height * _EAR_BEHIND_SIDE * forward - height * 0.05 * up
+    center = sides.mean(axis=0) + height * (_CRANIUM_ABOVE_EARS * up - _CRANIUM_BEHIND_EARS * forward)
     radii = height * _CRANIUM_RADII
     spread = (axes.T @ np.diag(radii**2) @ axes)[:2, :2]
-    return FaceFrame(axes, height, landmarks.eyes.mean(axis=0), center[:2], spread)
+    return FaceFrame(axes, height, landmarks.eyes.mean(axis=0), ears[:, :2], center[:2], spread)
 
 
 def location_prior(landmarks: FaceLandmarks, *, person: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -82,13 +86,15 @@ def location_prior(landmarks: FaceLandmarks, *, person: NDArray[np.float32]) -> 
 @dataclass(frozen=True)
 class _Zones:
     """Coordinates of every pixel (h, w), in face heights: `along` right and `above` the eyes, `outside` the face's
-    outline (negative inside), `over_brows` above the brow line, `cranium` (1 on the bare cranium's outline)."""
+    outline (negative inside), `over_brows` above the brow line, `cranium` (1 on the bare cranium's outline); `ears` in
+    [0, 1]."""
 
     along: NDArray[np.float32]
     above: NDArray[np.float32]
     outside: NDArray[np.float32]
     over_brows: NDArray[np.float32]
     cranium: NDArray[np.float32]
+    ears: NDArray[np.float32]
 
 
 def _zones(landmarks: FaceLandmarks, frame: FaceFrame, size: tuple[int, int], scale: float) -> _Zones:
@@ -103,7 +109,17 @@ def _zones(landmarks: FaceLandmarks, frame: FaceFrame, size: tuple[int, int], sc
     above = away @ up
     over_brows = above - brows @ up / frame.height_px
     outside = _distance_outside(landmarks.points[list(FACE_OVAL), :2] * scale, size) / (frame.height_px * scale)
-    return _Zones(*(np.asarray(a, np.float32) for a in (away @ right, above, outside, over_brows, cranium)))
+    return _Zones(
+        *(np.asarray(a, np.float32) for a in (away @ right, above, outside, over_brows, cranium, _ears(place, frame)))
+    )
+
+
+def _ears(place: NDArray[np.float64], frame: FaceFrame) -> NDArray[np.float64]:
+    """1 on the two ears, 0 far from them."""
+    bumps = [
+        np.exp(-((((place - ear) / (_EAR_RADIUS * frame.height_px)) ** 2).sum(axis=-1) ** 2)) for ear in frame.ears
+    ]
+    return np.maximum(*bumps)
 
 
 def _distance_outside(outline: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.float32]:
@@ -126,18 +142,20 @@ def _around_face(zones: _Zones) -> NDArray[np.float32]:
     over = _cap(zones)
     under = _below_chin(zones)
     prior = _blend(beside, over, _step(zones.above, -0.1, 0.15))
+    prior = _blend(prior, _stack(*(np.full_like(zones.ears, p) for p in (0.03, 0.6, 0.37))), zones.ears)
     return _blend(prior, under, _step(-zones.above, 0.5, 0.75))
 
 
 def _cap(zones: _Zones) -> NDArray[np.float32]:
-    """Above the eyes: hair, with a strip of forehead above the outline; far from the cranium anything."""
+    """Above the eyes: hair, with a forehead above the outline, as high as it is with a bald front; far off anything."""
     far = _step(zones.cranium, 1.5, 2.3)
-    forehead = 0.5 * np.exp(-np.maximum(zones.outside, 0) / 0.06)
+    middle = np.exp(-((zones.along / 0.38) ** 4))
+    forehead = (0.3 + 0.3 * middle) * np.exp(-((np.maximum(zones.outside, 0) / 0.16) ** 2))
     return _stack(0.04 + 0.5 * far, 0.03 + forehead * (1 - far), 0.93 - forehead - 0.5 * far)
 
 
 def _sides(zones: _Zones) -> NDArray[np.float32]:
-    """Between eyes and chin beside the face: ears and neck near, hair, then sleeves and shoulders."""
+    """Between eyes and chin beside the face: neck near, hair, then sleeves and shoulders."""
     near = np.exp(-np.maximum(zones.outside, 0) / 0.12)
     far = _step(np.abs(zones.along), 0.7, 1.3)
     return _stack(0.2 + 0.45 * far, 0.05 + 0.45 * near, 0.6 - 0.25 * near - 0.3 * far)
@@ -147,14 +165,14 @@ def _below_chin(zones: _Zones) -> NDArray[np.float32]:
     """Throat, chest and shoulders: skin and clothes; hair hangs at the sides and gets rarer downwards."""
     throat = np.exp(-((zones.along / 0.28) ** 2)) * _step(zones.above, -1.3, -0.9)
     down = _step(-zones.above, 0.6, 2.4)
-    hair = (0.35 - 0.3 * down) * (1 - 0.9 * throat)
+    hair = (0.5 - 0.3 * down) * (1 - 0.9 * throat)
     skin = 0.5 * throat + 0.06 * (1 - down)
     return _stack(1 - hair - skin, skin, hair)
 
 
 def _in_face(zones: _Zones) -> NDArray[np.float32]:
     """Inside the outline: face; but a fringe may hang over the forehead and locks over the temples and cheeks."""
-    fringe = 0.3 * _step(zones.over_brows, 0.0, 0.12)
+    fringe = 0.2 * _step(zones.over_brows, 0.0, 0.12)
     lock = 0.25 * np.exp(np.minimum(zones.outside, 0) / 0.07) * _step(zones.above, -0.45, -0.15)
     hair = np.maximum(np.maximum(fringe, lock), 0.004)
     return _stack(np.full_like(hair, 0.003), 1 - hair, hair)
