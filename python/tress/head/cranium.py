@@ -17,12 +17,7 @@ CELL_M = 0.002
 
 
 def inward_pull(
-    positions: NDArray[np.float64],
-    pose: Pose,
-    mask: NDArray,
-    *,
-    head: StatisticalHead,
-    margin: float,
+    positions: NDArray[np.float64], pose: Pose, mask: "MaskDistance", *, head: StatisticalHead, margin: float
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
     """Which vertices of the scalp stick out of the person mask (less `margin`, metres), and how far they should go
     back.
@@ -31,8 +26,7 @@ def inward_pull(
     than half of the scalp lies outside: then the mask is not about this person.
     """
     vertices = np.flatnonzero(head.masks["scalp"] > 0.5)
-    grid = _signed_distance(mask, cell=max(1.0, pose.scale * CELL_M))
-    inside_px, *gradient = grid.at(pose.seen(positions[vertices])[:, :2])
+    inside_px, *gradient = mask.at(pose.seen(positions[vertices])[:, :2])
     depth = inside_px / pose.scale - margin
     direction = np.stack(gradient, axis=1)
     direction /= np.linalg.norm(direction, axis=1, keepdims=True).clip(min=1e-9)
@@ -67,32 +61,31 @@ def cranium_weight(head: StatisticalHead) -> NDArray[np.float64]:
     return t * t * (3 - 2 * t) * (np.arange(len(head.mean)) < head.skin_count) * (1 - head.masks["inside"])
 
 
-def _signed_distance(mask: NDArray, *, cell: float) -> "_Grid":
-    """Distance to the mask's edge in px, positive inside, and its gradient, on a grid of `cell` px.
-
-    The picture's border is no edge.
-    """
-    height, width = mask.shape
-    size = (max(2, round(width / cell)), max(2, round(height / cell)))
-    small = cv2.resize(np.asarray(mask, np.float32), size, interpolation=cv2.INTER_AREA)
-    person = np.pad(small > 0.5, max(size), mode="edge").astype(np.uint8)
-    distance = cv2.distanceTransform(person, cv2.DIST_L2, 5) - cv2.distanceTransform(1 - person, cv2.DIST_L2, 5)
-    distance = cv2.GaussianBlur(np.asarray(distance, np.float32), (0, 0), 1.0)
-    cells = np.array([width / size[0], height / size[1]])
-    dy, dx = np.gradient(distance)
-    layers = np.stack([distance * cells.mean(), dx, dy]).astype(np.float64)
-    return _Grid(layers, cells, max(size))
-
-
 @dataclass(frozen=True)
-class _Grid:
-    """Layers of values (C, h, w) on cells of `cells` px, with `pad` cells around the picture."""
+class MaskDistance:
+    """Distance to the person mask's edge, px, positive inside, and its gradient: `layers` (3, h, w) on cells of `cells`
+    px (2,), with `pad` cells around the picture, whose border is no edge."""
 
     layers: NDArray[np.float64]
     cells: NDArray[np.float64]
     pad: int
 
     def at(self, xy: NDArray[np.float64]) -> NDArray[np.float64]:
-        """All layers at points (N, 2) px: (C, N)."""
+        """All layers at points (N, 2) px: (3, N)."""
         column, row = (xy / self.cells + self.pad - 0.5).T
         return np.stack([map_coordinates(layer, [row, column], order=1, mode="nearest") for layer in self.layers])
+
+
+def mask_distance(mask: NDArray, *, px_per_metre: float) -> MaskDistance:
+    """Of a person mask (H, W) in [0, 1], about 2 mm a cell on the head."""
+    height, width = mask.shape
+    cell = max(1.0, px_per_metre * CELL_M)
+    size = (max(2, round(width / cell)), max(2, round(height / cell)))
+    small = cv2.resize(np.asarray(mask, np.float32), size, interpolation=cv2.INTER_AREA)
+    pad = max(size) // 2
+    person = np.pad(small > 0.5, pad, mode="edge").astype(np.uint8)
+    distance = cv2.distanceTransform(person, cv2.DIST_L2, 5) - cv2.distanceTransform(1 - person, cv2.DIST_L2, 5)
+    distance = cv2.GaussianBlur(np.asarray(distance, np.float32), (0, 0), 1.0)
+    cells = np.array([width / size[0], height / size[1]])
+    dy, dx = np.gradient(distance)
+    return MaskDistance(np.stack([distance * cells.mean(), dx, dy]).astype(np.float64), cells, pad)

@@ -20,10 +20,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tress.base.params import Params, param
-from tress.head.cranium import inward_pull, reshaped_cranium
-from tress.head.landmarks import FACE_OVAL, FaceLandmarks
+from tress.base.report import Report
+from tress.head.cranium import inward_pull, mask_distance, reshaped_cranium
+from tress.head.definite import solve_definite
+from tress.head.landmark_basis import landmark_basis, near_side, side_products
+from tress.head.landmarks import FaceLandmarks
 from tress.head.pose import refined_pose, similarity_pose
 from tress.head.statistical import StatisticalHead, load_statistical_head
+
+PROFILE_YAW = np.radians(40)
+DEEP_PITCH = np.radians(25)
+POOR_ERROR = 0.06
+"""Of the eyes' distance."""
+INDEPENDENT_POINTS = 200.0
+"""The landmarks' errors go together: 468 of them tell no more than about so many would on their own."""
+INDEPENDENT_PULLS = 40
+PULL_NOISE_M = 0.004
+"""How exactly so many independent vertices of the cranium are to follow the person mask."""
 
 
 @dataclass(frozen=True)
@@ -90,87 +103,104 @@ def fit_head(
     person_mask: NDArray[np.floating] | None = None,
     params: FitParams | None = None,
     head: StatisticalHead | None = None,
+    report: Report | None = None,
 ) -> FittedHead:
     """The head behind `landmarks`; about 50 ms, deterministic.
 
-    `person_mask` (H, W): probability of a person at each pixel of the picture; without it the cranium is prior alone.
+    `person_mask` (H, W): probability of a person at each pixel of the picture; without it the cranium is prior alone. A
+    near profile, a deep nod and landmarks that fit badly are fitted all the same and reported as warnings.
     Source of the scheme: Blanz et al. 2004, A statistical method for robust 3D surface reconstruction from sparse data.
     """
     params = params or FitParams()
     head = head or load_statistical_head()
     solver = _ShapeSolver(head, landmarks, params)
-    solver.run()
+    solver.run(rounds=params.rounds)
     if person_mask is not None:
         solver.keep_inside(np.asarray(person_mask))
-    return solver.fitted()
+    fitted = solver.fitted()
+    if report is not None:
+        for warning in doubts(fitted):
+            report.warn(warning)
+    return fitted
+
+
+def doubts(fitted: FittedHead) -> list[str]:
+    """What a user should know before trusting a fit: one sentence each, none for an ordinary portrait."""
+    found = []
+    if abs(fitted.yaw) > PROFILE_YAW:
+        found.append(f"The head is turned by {abs(np.degrees(fitted.yaw)):.0f}°: its far side is guessed.")
+    if abs(fitted.pitch) > DEEP_PITCH:
+        way = "down" if fitted.pitch > 0 else "up"
+        found.append(f"The head looks {way} by {abs(np.degrees(fitted.pitch)):.0f}°: the cranium is uncertain.")
+    if fitted.error_of_eye_distance > POOR_ERROR:
+        found.append(f"The head fits its landmarks poorly ({fitted.error_of_eye_distance:.1%} of the eye distance).")
+    return found
 
 
 class _ShapeSolver:
-    """What one fit carries along: the bases at the landmarks, the pose, the coefficients, and pulls on the cranium."""
+    """What one fit carries along: the basis at the landmarks, the pose, the coefficients, and pulls on the cranium."""
 
     def __init__(self, head: StatisticalHead, landmarks: FaceLandmarks, params: FitParams) -> None:
         self._head, self._landmarks, self._params = head, landmarks, params
-        components = [head.shape_components, head.expression_components]
-        self._basis = np.concatenate([head.at_landmarks(part) for part in components])
-        self._rest = head.at_landmarks(head.mean)
-        self._shape_count = len(head.shape_components)
-        spread = np.full(len(self._basis), params.expression_spread)
-        spread[: self._shape_count] = 1.0
-        self._prior = spread**-2
-        self._coefficients = np.zeros(len(self._basis))
+        self._basis = landmark_basis(head)
+        count = self._basis.shape_count
+        self._prior = np.full(len(self._basis.basis), params.expression_spread**-2)
+        self._prior[:count] = 1.0
+        self._coefficients = np.zeros(len(self._prior))
         self._target = corrected_target(landmarks, head.landmark_depth)
         self._depth_weight = params.depth_weight if np.ptp(landmarks.points[:, 2]) > 0 else 0.0
-        self._weight = landmarks.weights.astype(np.float64)
-        self._pose = similarity_pose(self._rest, self._target, weight=self._weight)
-        self._pulls = (np.zeros((0, len(self._basis))), np.zeros(0))
+        self._given = landmarks.weights.astype(np.float64)
+        self._pose = similarity_pose(self._basis.rest, self._target, weight=self._given)
+        self._products: dict[int, NDArray[np.float64]] = {}
+        self._pull_matrix = np.zeros((len(self._prior), len(self._prior)))
+        self._pull_values = np.zeros(len(self._prior))
 
-    def run(self) -> None:
+    def run(self, *, rounds: int) -> None:
         """Rounds of pose and shape in turn."""
-        for _ in range(self._params.rounds):
-            points = self._rest + np.tensordot(self._coefficients, self._basis, axes=1)
-            weight = self._weight * near_side(self._pose.yaw, self._params.far_yaw)
-            self._pose = refined_pose(self._pose, points, self._target, weight=weight, depth_weight=self._depth_weight)
-            self._coefficients = self._solve(weight)
+        for _ in range(rounds):
+            points = self._basis.points(self._coefficients)
+            self._pose = refined_pose(
+                self._pose, points, self._target, weight=self._weight(), depth_weight=self._depth_weight
+            )
+            self._coefficients = self._solve()
 
     def keep_inside(self, mask: NDArray) -> None:
         """Pulls the cranium into the mask and solves again, a few times."""
+        edge = mask_distance(mask, px_per_metre=self._pose.scale)
         for _ in range(self._params.mask_rounds):
             vertices, rows, distance = inward_pull(
-                self._positions(), self._pose, mask, head=self._head, margin=self._params.mask_margin
+                self._positions(), self._pose, edge, head=self._head, margin=self._params.mask_margin
             )
             if len(vertices) == 0:
                 return
-            basis = np.concatenate(
-                [self._head.shape_components[:, vertices], np.zeros_like(self._head.expression_components[:, vertices])]
-            )
-            along = np.einsum("knc,nc->nk", basis, rows)
-            trust = 1 / (0.004 * np.sqrt(max(len(vertices) / 40, 1.0)))
-            self._pulls = (along * trust, (distance + along @ self._coefficients) * trust)
-            self.run()
+            along = np.zeros((len(self._prior), len(vertices)))
+            along[: self._basis.shape_count] = np.einsum("knc,nc->kn", self._head.shape_components[:, vertices], rows)
+            trust = 1 / (PULL_NOISE_M * np.sqrt(max(len(vertices) / INDEPENDENT_PULLS, 1.0)))
+            reached = np.einsum("kn,k->n", along, self._coefficients)
+            self._pull_matrix = np.einsum("kn,ln->kl", along, along) * trust**2
+            self._pull_values = np.einsum("kn,n->k", along, distance + reached) * trust**2
+            self.run(rounds=2)
 
     def fitted(self) -> FittedHead:
         """The record, in the view frame."""
-        upright = self._positions()
-        upright = upright - self._head.center(upright)
-        shift = self._head.center(self._positions())
-        params = self._params
-        upright = reshaped_cranium(upright, head=self._head, scale=params.cranium_scale, tilt=params.cranium_tilt)
-        pose = self._pose
-        center = pose.seen(shift[None])[0]
-        camera = np.array([[pose.scale, 0, 0, center[0]], [0, -pose.scale, 0, center[1]], [0, 0, 0, 1.0]])
+        head, pose, params = self._head, self._pose, self._params
+        positions = self._positions()
+        center = head.center(positions)
+        upright = reshaped_cranium(positions - center, head=head, scale=params.cranium_scale, tilt=params.cranium_tilt)
+        cx, cy, _ = pose.seen(center[None])[0]
         view_from_head = np.eye(4)
         view_from_head[:3, :3] = pose.rotation
-        eyes = self._head.eyes(upright)
-        eye_distance_px = float(np.linalg.norm(eyes[0] - eyes[1])) * pose.scale
+        right_eye, left_eye = head.eyes(upright)
+        eye_distance_px = float(np.linalg.norm(left_eye - right_eye)) * pose.scale
         return FittedHead(
             positions_in_view=upright @ pose.rotation.T,
-            triangles=self._head.triangles,
-            corner_uv=self._head.corner_uv,
-            masks=self._head.masks,
-            xy_from_view=camera,
+            triangles=head.triangles,
+            corner_uv=head.corner_uv,
+            masks=head.masks,
+            xy_from_view=np.array([[pose.scale, 0, 0, cx], [0, -pose.scale, 0, cy], [0, 0, 0, 1.0]]),
             view_from_head=view_from_head,
-            shape=self._coefficients[: self._shape_count],
-            expression=self._coefficients[self._shape_count :],
+            shape=self._coefficients[: self._basis.shape_count],
+            expression=self._coefficients[self._basis.shape_count :],
             landmarks=self._landmarks,
             error_of_eye_distance=self._error_px() / eye_distance_px,
             inter_ocular_px=eye_distance_px,
@@ -179,50 +209,50 @@ class _ShapeSolver:
             roll=pose.roll,
         )
 
-    def _solve(self, weight: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _side(self) -> int:
+        """1 or -1 where the head is turned to its left or right so far that the far outline must not count, else 0."""
+        return int(np.sign(self._pose.yaw)) if abs(self._pose.yaw) > self._params.far_yaw else 0
+
+    def _weight(self) -> NDArray[np.float64]:
+        return self._given * near_side(self._side())
+
+    def _solve(self) -> NDArray[np.float64]:
         """Coefficients of the least squares in metres, with the pose held."""
-        pose, params = self._pose, self._params
-        root = np.sqrt(weight)[:, None] * np.array([1, 1, np.sqrt(self._depth_weight)]) / params.noise
+        pose, weight = self._pose, self._weight()
+        counted = np.array([1.0, 1.0, self._depth_weight])
         axes = np.array([1.0, -1.0, 1.0])
-        residual = (self._target - pose.seen(self._rest)) / pose.scale * axes * root
-        rows = (self._basis @ pose.rotation.T * root).reshape(len(self._basis), -1).T
-        effective = np.sqrt(INDEPENDENT_POINTS / max(float(weight.sum()), INDEPENDENT_POINTS))
-        rows = np.concatenate([rows * effective, self._pulls[0]])
-        values = np.concatenate([residual.ravel() * effective, self._pulls[1]])
-        normal = rows.T @ rows + np.diag(self._prior)
-        return np.asarray(np.linalg.solve(normal, rows.T @ values), np.float64)
+        trust = min(INDEPENDENT_POINTS / float(weight.sum()), 1.0) / self._params.noise**2
+        in_head = (self._target - pose.seen(self._basis.rest)) / pose.scale * axes * counted @ pose.rotation
+        metric = (pose.rotation.T * counted) @ pose.rotation
+        normal = trust * np.einsum("ab,abkl->kl", metric, self._products_now()) + self._pull_matrix
+        values = trust * np.einsum("kdn,nd->k", self._basis.basis, in_head * weight[:, None])
+        values += self._pull_values
+        return solve_definite(normal + np.diag(self._prior), values)
+
+    def _products_now(self) -> NDArray[np.float64]:
+        side = self._side()
+        if (self._given == 1).all():
+            return side_products(self._head, side)
+        if side not in self._products:
+            self._products[side] = self._basis.products(self._weight())
+        return self._products[side]
 
     def _positions(self) -> NDArray[np.float64]:
-        shape, expression = np.split(self._coefficients, [self._shape_count])
+        shape, expression = np.split(self._coefficients, [self._basis.shape_count])
         return self._head.positions(shape=shape, expression=expression)
 
     def _error_px(self) -> float:
-        points = self._rest + np.tensordot(self._coefficients, self._basis, axes=1)
-        weight = self._weight * near_side(self._pose.yaw, self._params.far_yaw)
-        distance = np.linalg.norm((self._target - self._pose.seen(points))[:, :2], axis=1)
-        return float(weight @ distance / weight.sum())
-
-
-INDEPENDENT_POINTS = 200.0
-"""The landmarks' errors go together: 468 of them tell no more than about so many would on their own."""
+        weight = self._weight()
+        seen = self._pose.seen(self._basis.points(self._coefficients))
+        distance = np.linalg.norm((self._target - seen)[:, :2], axis=1)
+        return float(np.sum(weight * distance) / weight.sum())
 
 
 def corrected_target(landmarks: FaceLandmarks, depth_law: NDArray[np.float64]) -> NDArray[np.float64]:
     """u, v and depth (468, 3) px: the network's depth after the linear correction found on rendered heads."""
     target = landmarks.points.astype(np.float64)
     gain, slope = depth_law
-    right, left = landmarks.eyes
-    down = np.array([-(left - right)[1], (left - right)[0]]) / max(np.linalg.norm(left - right), 1e-9)
+    across = np.subtract(*landmarks.eyes[::-1])
+    down = np.array([-across[1], across[0]]) / max(float(np.linalg.norm(across)), 1e-9)
     target[:, 2] = gain * target[:, 2] - slope * (target[:, :2] @ down)
     return target
-
-
-def near_side(yaw: float, far_yaw: float) -> NDArray[np.float64]:
-    """Weights (468,): 0 for the points of the outline on the far side of a head turned by more than `far_yaw`, else
-    1.
-    """
-    weight = np.ones(468)
-    if abs(yaw) > far_yaw:
-        half = len(FACE_OVAL) // 2
-        weight[list(FACE_OVAL[1:half] if yaw > 0 else FACE_OVAL[half + 1 :])] = 0
-    return weight

@@ -6,12 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from tress.head.definite import solve_definite
+
 
 @dataclass(frozen=True)
 class Pose:
     """x_view = rotation @ x_head; u = scale x + cx, v = -scale y + cy, and the seen depth is scale z + cz, all px.
 
-    `rotation` (3, 3), `scale` px per metre, `offset` (3,) = cx, cy, cz px.
+    `rotation` (3, 3): first the nod, then the turn, then the lean. `scale` px per metre, `offset` (3,) = cx, cy, cz px.
     """
 
     rotation: NDArray[np.float64]
@@ -21,17 +23,17 @@ class Pose:
     @property
     def yaw(self) -> float:
         """How far the head is turned to its own left, radians (it then looks to the right of the picture)."""
-        return float(np.arctan2(self.rotation[0, 2], self.rotation[2, 2]))
+        return float(-np.arcsin(np.clip(self.rotation[2, 0], -1, 1)))
 
     @property
     def pitch(self) -> float:
         """How far the head nods down, radians."""
-        return float(np.arcsin(np.clip(-self.rotation[1, 2], -1, 1)))
+        return float(np.arctan2(self.rotation[2, 1], self.rotation[2, 2]))
 
     @property
     def roll(self) -> float:
-        """How far the head leans towards its own left shoulder, radians."""
-        return float(np.arctan2(self.rotation[0, 1], self.rotation[1, 1]))
+        """How far the head, turned and nodding, leans towards its own left shoulder in the picture, radians."""
+        return float(-np.arctan2(self.rotation[1, 0], self.rotation[0, 0]))
 
     def seen(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points (N, 3) of the head frame as u, v and depth (N, 3), px."""
@@ -65,7 +67,8 @@ def refined_pose(
 ) -> Pose:
     """`pose` after Gauss-Newton steps on the weighted squares of u, v and, counted by `depth_weight`, of the depth.
 
-    A whisper of a prior keeps the rotation where points in a plane or very few points leave it open.
+    A whisper of damping keeps the rotation where points in a plane or very few points leave it open, and the depth
+    where it counts nothing.
     """
     axes = np.array([1.0, -1.0, 1.0])
     root = np.sqrt(weight)[:, None] * np.array([1.0, 1.0, np.sqrt(depth_weight)])
@@ -75,9 +78,10 @@ def refined_pose(
         columns = [np.cross(axis, turned) * pose.scale for axis in np.eye(3)]
         columns += [turned, *(np.broadcast_to(axis, points.shape) * axes for axis in np.eye(3))]
         jacobian = np.stack([column * axes * root for column in columns], axis=-1).reshape(-1, 7)
-        normal = jacobian.T @ jacobian
+        normal = np.einsum("ni,nj->ij", jacobian, jacobian)
         normal[np.arange(3), np.arange(3)] += 1e-4 * np.trace(normal[:3, :3]) / 3 + 1e-12
-        step = np.linalg.solve(normal, jacobian.T @ residual.ravel())
+        normal[6, 6] += 1e-9 * normal[5, 5]
+        step = solve_definite(normal, np.einsum("ni,n->i", jacobian, residual.ravel()))
         rotation = Rotation.from_rotvec(step[:3]).as_matrix() @ pose.rotation
         pose = Pose(rotation, max(pose.scale + float(step[3]), 1e-6), pose.offset + step[4:])
     return pose

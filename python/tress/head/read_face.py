@@ -54,9 +54,9 @@ def read_face(
 ) -> FaceLandmarks:
     """The landmarks of one face of `image` (H, W, 3) uint8 sRGB.
 
-    Of several faces the largest and most central is taken and a warning reported; `face` names another, counted from
-    the left from 0. `landmarks` given by hand replace detection: all 468 are used as they are; a few named points show
-    the network where to look, and stand in for it with an average face where it sees none.
+    Several faces are ranked by size and closeness to the picture's middle; the first is taken and a warning reported,
+    `face` names another, counted from 0. `landmarks` given by hand replace detection: all 468 are used as they are; a
+    few named points show the network where to look, and stand in for it with an average face where it sees none.
 
     Raises `NoFaceError` where there is no face, or it is too small or too much cut off; `InputError` where `face`
     names none.
@@ -81,25 +81,24 @@ def by_prominence(faces: list[FaceBox], *, height: int, width: int) -> list[Face
 
 def _chosen(image: NDArray[np.uint8], face: int | None, reader: FaceReader, report: Report) -> FaceLandmarks:
     height, width = image.shape[:2]
-    faces = sorted(find_faces(image, detector=reader.faces), key=lambda found: found.center[0])
+    faces = by_prominence(find_faces(image, detector=reader.faces), height=height, width=width)
     if not faces:
         raise NoFaceError(
             "No face was found; use a picture with a visible face, or give the eyes by hand with --landmarks."
         )
-    if face is not None:
-        if not 0 <= face < len(faces):
-            raise InputError(f"Face {face} was asked for; the picture shows {len(faces)}, counted from 0 on the left.")
-        candidates = [faces[face]]
-    else:
-        candidates = by_prominence(faces, height=height, width=width)
-    for candidate in candidates:
-        found = locate_landmarks(image, candidate, model=reader.points)
-        if found.score >= SURE:
-            if face is None and len(faces) > 1:
-                number = next(k for k, other in enumerate(faces) if other is candidate)
-                report.warn(f"{len(faces)} faces were found; took number {number} from the left, the most prominent.")
-            return found
-    raise NoFaceError("What looked like a face has no readable features; give the eyes by hand with --landmarks.")
+    read = [
+        found for found in (locate_landmarks(image, box, model=reader.points) for box in faces) if found.score >= SURE
+    ]
+    if not read:
+        raise NoFaceError("What looked like a face has no readable features; give the eyes by hand with --landmarks.")
+    if face is not None and not 0 <= face < len(read):
+        raise InputError(
+            f"Face {face} was asked for; the picture shows {len(read)}, counted from 0, most prominent first."
+        )
+    if face is None and len(read) > 1:
+        report.warn(f"{len(read)} faces were found and the most prominent was taken; --face 1 takes the next.")
+    report.number("faces", len(read))
+    return read[face or 0]
 
 
 def _near_hand_points(

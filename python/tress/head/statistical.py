@@ -17,7 +17,7 @@ from tress.head.assets import asset
 REGIONS = ("scalp", "face", "ears", "lips", "eyes", "neck", "inside")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class StatisticalHead:
     """A family of heads in the head frame: metres, facing +z, y up, origin the mean head's centre.
 
@@ -52,9 +52,9 @@ class StatisticalHead:
         """Vertices (V, 3) of one head, metres: `shape` in standard deviations, `expression` in [0, 1] by rights."""
         positions = self.mean
         if shape is not None:
-            positions = positions + np.tensordot(shape, self.shape_components[: len(shape)], axes=1)
+            positions = positions + _combined(shape, self.shape_components)
         if expression is not None:
-            positions = positions + np.tensordot(expression, self.expression_components[: len(expression)], axes=1)
+            positions = positions + _combined(expression, self.expression_components)
         return positions
 
     def center(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -73,6 +73,11 @@ class StatisticalHead:
         """Anything given at the vertices (..., V, C), at the 468 landmarks (..., 468, C)."""
         corners = values[..., self.triangles[self.landmark_triangle], :]
         return np.einsum("nk,...nkc->...nc", self.landmark_barycentric, corners)
+
+
+def _combined(coefficients: NDArray[np.floating], components: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The weighted sum (V, 3), with the same bits for any number of threads."""
+    return np.einsum("k,kvd->vd", np.asarray(coefficients, np.float32), components[: len(coefficients)])
 
 
 @cache

@@ -62,7 +62,7 @@ def head_texture(
     sheet[places.row, places.column], known[places.row, places.column] = color, total
     sheet = _spread(sheet, known, skin_color)
     mouth = _at(head.masks["inside"] * (1 - head.masks["eyes"]), head, places)
-    _tint(sheet, places, mouth * np.clip(1 - own_weight, 0, 1), MOUTH_COLOR)
+    _tint(sheet, places, mouth * np.clip(1 - 2 * own_weight, 0, 1), MOUTH_COLOR)
     if scalp_color is not None:
         _tint(sheet, places, _at(head.masks["scalp"], head, places), np.asarray(scalp_color))
     return np.clip(np.rint(sheet * 255), 0, 255).astype(np.uint8)
@@ -144,7 +144,11 @@ def _gain(
     both = own_weight * other_weight * np.clip(1 - own_weight, 0.02, 1)
     if both.sum() <= 0:
         return np.ones(3, np.float32)
-    return np.clip((both @ own) / np.maximum(both @ other, 1e-6), 0.5, 2.0).astype(np.float32)
+    return np.clip(_sum(both, own) / np.maximum(_sum(both, other), 1e-6), 0.5, 2.0).astype(np.float32)
+
+
+def _sum(weight: NDArray[np.float32], color: NDArray[np.float32]) -> NDArray[np.float64]:
+    return np.einsum("n,nc->c", weight.astype(np.float64), color.astype(np.float64))
 
 
 def _skin_color(color: NDArray[np.float32], weight: NDArray[np.float32]) -> NDArray[np.float32]:
