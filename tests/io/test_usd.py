@@ -78,6 +78,7 @@ def test_other_programs_find_what_they_need(tmp_path):
     assert list(curves.GetCurveVertexCountsAttr().Get()) == [3, 4]
     assert (curves.GetWidthsInterpolation(), curves.GetWidthsAttr().Get()[0]) == ("vertex", pytest.approx(8e-5))
     assert curves.GetDisplayColorPrimvar().GetInterpolation() == "vertex"
+    assert "GroomAPI" in curves.GetPrim().GetMetadata("apiSchemas").GetAppliedItems()
     root_triangle = UsdGeom.PrimvarsAPI(curves).GetPrimvar("root_triangle")
     assert (root_triangle.GetInterpolation(), list(root_triangle.Get())) == ("uniform", [0, -1])
     mesh = scene.GetPrimAtPath(root.AppendPath("head/mesh"))

@@ -13,6 +13,8 @@ from tress.io.usd.primvars import attributes_of, primvars
 from tress.io.usd.typing import exact_values
 from tress.model.strands import Strands
 
+UNREAL = "GroomAPI"  # the schema by which Unreal recognises hair
+
 
 def strands_prim(name: str, strands: Strands) -> Prim:
     """The prim of strands."""
@@ -33,7 +35,7 @@ def strands_prim(name: str, strands: Strands) -> Prim:
         attributes["primvars:displayOpacity"] = Attribute("float[]", alpha, "vertex")
     attributes |= primvars(point, interpolation="vertex")
     attributes |= primvars(strands.strand_attributes, interpolation="uniform")
-    return Prim(name, "BasisCurves", attributes, data={"record": "Strands"})
+    return Prim(name, "BasisCurves", attributes, api_schemas=(UNREAL,), data={"record": "Strands"})
 
 
 def strands_of(prim: Prim) -> Strands:
