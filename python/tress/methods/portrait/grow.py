@@ -1,0 +1,102 @@
+"""Strands in the hair volume: a visible layer that re-covers the photograph pixel by pixel, and the body behind it.
+
+Chai et al. 2012, section 3.3.2. Both are streamlines through one field (`tress.kernel.fields.trace`): the visible ones start
+at every hair pixel that has no strand yet, follow the picture, and go on into the volume to their root and tip; the
+others start at random voxels until `count` strands are there or the voxels are full.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from tress.base.params import Params, param
+from tress.base.report import Report
+from tress.kernel import fields
+from tress.methods.portrait.volume import HairVolume
+
+Array = np.ndarray[Any, Any]
+
+
+@dataclass(frozen=True)
+class GrowParams(Params):
+    """Settings of the strands."""
+
+    count: int = param(50000, low=100, high=1000000, doc="Most strands.")
+    visible_share: float = param(0.4, low=0.0, high=1.0, doc="Most of them that start at the visible surface.")
+    voxel_cap: int = param(60, low=1, high=60000, doc="Most strands in a voxel.")
+    pixel_cap: int = param(4, low=1, high=1000, doc="Most visible strands in a pixel.")
+    sheet_depth: float = param(0.0025, low=0.0, high=0.02, unit="m", doc="How far behind the surface the photo steers.")
+    visible_step_px: float = param(1.25, low=0.25, high=10.0, unit="px", doc="Distance of vertices of visible strands.")
+    hidden_step: float = param(0.004, low=0.0005, high=0.02, unit="m", doc="Distance of vertices of hidden strands.")
+    longest: float = param(0.6, low=0.01, high=3.0, unit="m", doc="Longest way from a seed to root or tip.")
+    shortest: float = param(0.012, low=0.0, high=0.2, unit="m", doc="Shorter strands are dropped.")
+    clearance: float = param(0.001, low=0.0, high=0.01, unit="m", doc="Distance kept from the head.")
+
+
+@dataclass(frozen=True)
+class GrownHair:
+    """Strands in the view frame, metres: `points` (N, 3) float32, `offsets` (S + 1,) int64, root to tip; `visible` (S,): on the
+    photograph's surface; `rooted` (S,): the root meets the head.
+    """
+
+    points: Array
+    offsets: Array
+    visible: Array
+    rooted: Array
+
+
+def grow(
+    hair: HairVolume, *, depth: Array, direction: Array, xy_from_view: Array,
+    params: GrowParams, seed: int, report: Report,
+) -> GrownHair:
+    """From the volume, the depth of the visible surface `depth` (H, W) metres, NaN beside the hair, and `direction` (H, W, 2)."""
+    random = np.random.default_rng(seed)
+    field = fields.VoxelField(hair.direction, hair.head_distance, hair.origin, hair.voxel)
+    sheet = fields.FrontSheet(depth, direction, xy_from_view)
+    seen = fields.trace(
+        _visible_seeds(depth, xy_from_view, params, random), field=field, sheet=sheet,
+        settings=_settings(params, params.visible_step_px / xy_from_view[0, 0], params.pixel_cap,
+                           int(params.visible_share * params.count)),
+    )
+    rest = params.count - (len(seen.offsets) - 1)
+    hidden = fields.trace(
+        _hidden_seeds(hair, 3 * rest, params, random), field=field, sheet=sheet,
+        settings=_settings(params, params.hidden_step, 0, rest), density=seen.density,
+    )
+    report.number("visible_strands", len(seen.offsets) - 1)
+    report.number("hidden_strands", len(hidden.offsets) - 1)
+    report.number("vertices", len(seen.points) + len(hidden.points))
+    return GrownHair(
+        np.concatenate([seen.points, hidden.points]).astype(np.float32),
+        np.concatenate([seen.offsets, hidden.offsets[1:] + len(seen.points)]),
+        np.repeat([True, False], [len(seen.offsets) - 1, len(hidden.offsets) - 1]),
+        np.concatenate([seen.rooted, hidden.rooted]),
+    )
+
+
+def _settings(params: GrowParams, step: float, pixel_cap: int, most: int) -> fields.TraceSettings:
+    return fields.TraceSettings(
+        step=step, min_length=params.shortest, sheet_depth=params.sheet_depth, min_cosine=0.5, inertia=0.2,
+        voxel_cap=params.voxel_cap, pixel_cap=pixel_cap, clearance=params.clearance, most=most,
+    )
+
+
+def _visible_seeds(depth: Array, xy_from_view: Array, params: GrowParams, random: np.random.Generator) -> Array:
+    """A seed in every hair pixel, in random order, a little behind the surface."""
+    row, column = np.nonzero(np.isfinite(depth))
+    order = random.permutation(len(row))
+    row, column = row[order], column[order]
+    x = (column + 0.5 - xy_from_view[0, 3]) / xy_from_view[0, 0]
+    y = (row + 0.5 - xy_from_view[1, 3]) / xy_from_view[1, 1]
+    z = depth[row, column] - random.uniform(0, 0.6 * params.sheet_depth, len(row))
+    ways = np.full(len(row), params.longest)
+    return np.stack([x, y, z, ways, ways], axis=1)
+
+
+def _hidden_seeds(hair: HairVolume, count: int, params: GrowParams, random: np.random.Generator) -> Array:
+    """Random points of the volume behind the visible surface."""
+    below = hair.box.z[:, None, None] < np.where(np.isfinite(hair.front), hair.front - params.sheet_depth, np.inf)
+    centres = hair.box.centres(hair.inside & below)
+    points = centres[random.integers(0, len(centres), count)] + hair.voxel * random.uniform(-0.5, 0.5, (count, 3))
+    return np.concatenate([points, np.full((count, 2), params.longest)], axis=1)

@@ -1,0 +1,158 @@
+"""The body of hair: D_front, D_mid, D_back, and a direction in every voxel between them.
+
+Chai et al. 2012, section 3.3.2. The front is the strands' depth; the back is pushed behind the head by the thickness that the
+outline shows. Directions known from the photograph are turned into structure tensors (which know no forth and back, so that
+hair parted to both sides does not cancel), diffused with their sense through the voxels, and laid into the layers of
+the hair. Hidden hair has a weak wish of its own: down along the layer. Towards the tip strands rise a little through the
+layers, so that followed to the root they dive to the scalp, upper hair covering lower hair.
+
+Limits: what the photograph does not show follows gravity; a ponytail or a bun behind the head is not invented.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.ndimage import gaussian_filter
+
+from tress.base.params import Params, param
+from tress.base.report import Report
+from tress.kernel import fields
+from tress.methods.portrait.box import Box
+from tress.methods.portrait.envelope import Envelope
+from tress.methods.portrait.resample_picture import columns_from_pixels
+
+Array = np.ndarray[Any, Any]
+
+
+@dataclass(frozen=True)
+class VolumeParams(Params):
+    """Settings of the hair volume."""
+
+    picture_weight: float = param(
+        4.0, low=0.0, high=100.0, doc="Weight of directions seen in the photograph against smoothness."
+    )
+    gravity_weight: float = param(0.02, low=0.0, high=10.0, doc="Weight of falling, where nothing is seen.")
+    layer_share: float = param(0.8, low=0.0, high=1.0, doc="How far directions are turned into the layers.")
+    rise: float = param(0.12, low=0.0, high=1.0, doc="Slope by which strands rise through the layers near the scalp.")
+    thickest: float = param(0.035, low=0.005, high=0.1, unit="m", doc="Deepest hair that is filled.")
+    thinnest: float = param(0.010, low=0.002, high=0.05, unit="m", doc="Hair that is filled where the layer is thin.")
+
+
+@dataclass(frozen=True)
+class HairVolume:
+    """Depth maps (R, C) float32 metres, NaN beside the hair; per voxel (L, R, C): `inside` bool, `direction` (…, 3) float32
+    unit, root to tip, zero outside, `head_distance` float32 metres. `origin` (3,), `voxel` metres as in `Box`.
+    """
+
+    origin: Array
+    voxel: float
+    front: Array
+    mid: Array
+    back: Array
+    inside: Array
+    direction: Array
+    head_distance: Array
+
+    @property
+    def box(self) -> Box:
+        """The voxels' place."""
+        return Box(self.origin, self.voxel, *self.inside.shape)
+
+
+def volume(
+    surface: Envelope, *, front: Array, direction: Array, confidence: Array, xy_from_view: Array,
+    params: VolumeParams, report: Report,
+) -> HairVolume:
+    """From the envelope, the strands' depth per column `front` (R, C), and per pixel `direction` (H, W, 2) root to tip, y
+    down, and `confidence` (H, W) in [0, 1].
+    """
+    box, head = surface.box, surface.head
+    inside, depth_m = _filled(surface, front, params)
+    layer, normal = _layers(inside, depth_m, head.distance)
+    flat, trust = _column_directions(direction, confidence, surface, xy_from_view)
+    tensors, senses, weights = _data(inside, front, flat, trust, normal, surface, params)
+    field = fields.diffuse(
+        np.concatenate([tensors, senses], axis=-1), mask=inside, weights=weights, accuracy=1e-3, max_iterations=200
+    )
+    axes = fields.principal_axes(field.values[inside][:, :6], hints=field.values[inside][:, 6:])
+    out = np.zeros((*box.shape, 3), np.float32)
+    out[inside] = _laid(axes, layer[inside], normal[inside], head.distance[inside], params)
+    report.number("voxels", int(inside.sum()))
+    report.number("diffusion_steps", field.iterations)
+    report.number("diffusion_converged", field.converged)
+    seen = surface.extended
+    maps = [np.where(where, values, np.nan).astype(np.float32)
+            for where, values in ((surface.hair, front), (seen, surface.mid), (seen, surface.back))]
+    return HairVolume(box.origin, box.size, *maps, inside, out, head.distance)
+
+
+def _filled(surface: Envelope, front: Array, params: VolumeParams) -> tuple[Array, Array]:
+    """Voxels of hair, and metres from the outer surface inwards."""
+    box, head = surface.box, surface.head
+    z = box.z[:, None, None]
+    behind_head = np.where(head.seen, head.back, np.minimum(surface.mid, 0.0))
+    top = np.where(surface.hair, front, behind_head)
+    between = (z >= surface.back) & (z <= top + 0.5 * box.size) & surface.extended
+    body = between | (head.distance <= 0)
+    depth_m = fields.distance(~body) * np.float32(box.size)
+    reach = np.clip(surface.thickness, params.thinnest, params.thickest)
+    return between & (head.distance > 0.3 * box.size) & (depth_m <= reach + box.size), depth_m
+
+
+def _layers(inside: Array, depth_m: Array, head_distance: Array) -> tuple[Array, Array]:
+    """(L, R, C): 0 at the scalp, 1 at the outer surface; and the unit normal outwards (L, R, C, 3), zero where unclear."""
+    skin = np.maximum(head_distance, 0)
+    layer = gaussian_filter(skin / np.maximum(skin + depth_m, 1e-6), 1.0)
+    down, back, right = np.gradient(layer)[1], np.gradient(layer, axis=0), np.gradient(layer, axis=2)
+    slope = np.stack([right, -down, back], axis=-1)
+    length = np.linalg.norm(slope, axis=-1, keepdims=True)
+    return layer, np.where(length > 1e-4, slope / np.maximum(length, 1e-9), 0.0)
+
+
+def _column_directions(
+    direction: Array, confidence: Array, surface: Envelope, xy_from_view: Array
+) -> tuple[Array, Array]:
+    """Mean direction (R, C, 2), y up, of each column's pixels by their double angle and their sense; its trust (R, C)."""
+    x, y = direction[..., 0], direction[..., 1]
+    known = (x * x + y * y > 0.25) * confidence
+    double = np.stack([known * (x * x - y * y), known * 2 * x * y, known * x, known * y, known], axis=-1)
+    mean = np.concatenate(
+        [columns_from_pixels(double[..., :3], surface.box, xy_from_view),
+         columns_from_pixels(double[..., 3:], surface.box, xy_from_view)], axis=-1)
+    angle = np.arctan2(mean[..., 1], mean[..., 0]) / 2
+    flat = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    sense = np.sign((flat * mean[..., 2:4]).sum(axis=-1))
+    flat *= np.where(sense == 0, 1, sense)[..., None] * [1, -1]
+    return flat, np.hypot(mean[..., 0], mean[..., 1]) * surface.hair
+
+
+def _data(
+    inside: Array, front: Array, flat: Array, trust: Array, normal: Array, surface: Envelope, params: VolumeParams
+) -> tuple[Array, Array, Array]:
+    """Tensors (…, 6), senses (…, 3) and weights (L, R, C) of what is seen and of falling."""
+    box = surface.box
+    gravity = np.array([0.0, -1.0, 0.0])
+    falling = gravity - (normal @ gravity)[..., None] * normal
+    weights = params.gravity_weight * np.linalg.norm(falling, axis=-1) * inside
+    vectors = falling / np.maximum(np.linalg.norm(falling, axis=-1, keepdims=True), 1e-9)
+    row_slope, column_slope = np.gradient(np.where(surface.hair, front, np.nan), box.size)
+    rise = np.nan_to_num(column_slope) * flat[..., 0] - np.nan_to_num(row_slope) * flat[..., 1]
+    seen = np.concatenate([flat, np.clip(rise, -3, 3)[..., None]], axis=-1)
+    seen /= np.linalg.norm(seen, axis=-1, keepdims=True)
+    near = inside & (np.abs(box.z[:, None, None] - (front - 0.5 * box.size)) <= 1.1 * box.size) & surface.hair
+    layer, row, column = np.nonzero(near)
+    vectors[layer, row, column] = seen[row, column]
+    weights[layer, row, column] = params.picture_weight * trust[row, column] + 1e-3
+    x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
+    return np.stack([x * x, y * y, z * z, x * y, x * z, y * z], axis=-1), vectors, weights
+
+
+def _laid(axes: Array, layer: Array, normal: Array, head_distance: Array, params: VolumeParams) -> Array:
+    """Axes (N, 3) turned into the layers, rising where the scalp is near; unit."""
+    along = (axes * normal).sum(axis=-1, keepdims=True)
+    laid = axes - params.layer_share * along * normal
+    close = np.clip(1.5 - head_distance / 0.03, 0, 1)
+    laid = laid / np.maximum(np.linalg.norm(laid, axis=-1, keepdims=True), 1e-9)
+    laid = laid + (params.rise * close * (1 - layer))[:, None] * normal
+    return laid / np.maximum(np.linalg.norm(laid, axis=-1, keepdims=True), 1e-9)
