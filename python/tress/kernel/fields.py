@@ -1,7 +1,8 @@
-"""Fields on pixels and voxels: distances, diffusion, depth of strands, streamlines. All run on every core, same bits always.
+"""Fields on pixels and voxels: distances, diffusion, depth of strands, streamlines. All run on every core, same bits
+always.
 
-A box of voxels is an array (layers, rows, columns): layer 0 is farthest from the camera, row 0 is the top, column 0 the left.
-Every function raises `InputError` for wrong shapes and numbers that are not finite.
+A box of voxels is an array (layers, rows, columns): layer 0 is farthest from the camera, row 0 is the top, column 0
+the left. Every function raises `InputError` for wrong shapes and numbers that are not finite.
 """
 
 from dataclasses import dataclass
@@ -17,7 +18,8 @@ Array = np.ndarray[Any, Any]
 
 
 def distance(inside: Any) -> Array:
-    """(L, R, C) float32: distance, in voxels, from each voxel's centre to that of the nearest voxel where `inside` is true.
+    """(L, R, C) float32: distance, in voxels, from each voxel's centre to that of the nearest voxel where `inside`
+    is true.
 
     Exact; infinite where nothing is marked. Felzenszwalb and Huttenlocher 2012.
 
@@ -44,8 +46,8 @@ def diffuse(
 
     `values` (R, C), (L, R, C) or (L, R, C, K); `mask`, `weights` and `fixed` the same without K. Minimises
     `Σ weights (u - values)² + Σ over neighbours (u_i - u_j)²` with natural borders; where `fixed`, u = values. Weight 0
-    everywhere and nothing fixed gives 0. `accuracy` is the residual relative to the right-hand side. Some 100 steps; cost
-    linear in cells and steps.
+    everywhere and nothing fixed gives 0. `accuracy` is the residual relative to the right-hand side. Some 100 steps;
+    cost linear in cells and steps.
 
     >>> ends = np.array([[True, False, False, False, True]])
     >>> field = diffuse(np.array([[0.0, 9, 9, 9, 4]]), mask=ends | True, weights=ends * 0.0, fixed=ends)
@@ -81,7 +83,8 @@ class MeshDepth:
 
 
 def mesh_depth(vertices: Any, triangles: Any, *, shape: tuple[int, int]) -> MeshDepth:
-    """Depths of a mesh on a picture of `shape` cells; `vertices` (V, 3) holds x and y in cells (centres at + 0.5) and z.
+    """Depths of a mesh on a picture of `shape` cells; `vertices` (V, 3) holds x and y in cells (centres at + 0.5)
+    and z.
 
     >>> depth = mesh_depth([[0, 0, 5], [9, 0, 5], [0, 9, 5]], [[0, 1, 2]], shape=(1, 2))
     >>> depth.front.tolist()
@@ -101,7 +104,7 @@ def principal_axes(tensors: Any, *, hints: Any) -> Array:
 
     `tensors` (N, 6): xx, yy, zz, xy, xz, yz. Where no axis is largest, the normalised hint; zero where that is zero.
 
-    >>> principal_axes([[0, 4, 1, 0, 0, 0]], hints=[[0, -1, 0]]).tolist()
+    >>> principal_axes([[0, 4, 1, 0, 0, 0]], hints=[[0, -1, 0]]).round(6).tolist()
     [[0.0, -1.0, 0.0]]
     """
     rows = checked(tensors, name="tensors", dtype=np.float64, shape=(None, 6))
@@ -119,8 +122,8 @@ class Neighbours:
 def neighbours(
     points: Any, *, offsets: Any, occluded: Any, radius: float, max_angle: float, most: int = 6
 ) -> Neighbours:
-    """For each vertex (N, 2) the `most` nearest of *other* strands within `radius` that run within `max_angle` (radians)
-    of its direction and have the same `occluded` flag: N(p) of Chai et al. 2012, section 3.3.1.
+    """For each vertex (N, 2) the `most` nearest of *other* strands within `radius` that run within `max_angle`
+    (radians) of its direction and have the same `occluded` flag: N(p) of Chai et al. 2012, section 3.3.1.
     """
     plane = checked(points, name="points", dtype=np.float64, shape=(None, 2))
     try:
@@ -161,8 +164,8 @@ def strand_depths(
 ) -> Depths:
     """Depth of every vertex by the energy of Chai et al. 2012, eq. 5.
 
-    `target` (N,) holds where `weight` (N,) > 0 (w_Z z̄); `start` (N,) is where the iteration begins. Conjugate gradients with
-    every strand's own band inverted exactly.
+    `target` (N,) holds where `weight` (N,) > 0 (w_Z z̄); `start` (N,) is where the iteration begins. Conjugate
+    gradients with every strand's own band inverted exactly.
 
     >>> lists = Neighbours(np.zeros(4, np.int64), np.zeros(0, np.uint32))
     >>> strand_depths([0, 0, 2], weight=[5, 0, 5], offsets=[0, 3], near=lists, start=[0, 0, 0]).z.round(3).tolist()
@@ -187,10 +190,11 @@ def strand_depths(
 
 @dataclass(frozen=True)
 class VoxelField:
-    """Directions in a box of voxels: voxel (l, r, c) has its centre at `origin + size (c + ½, -(r + ½), l + ½)`, metres.
+    """Directions in a box of voxels: voxel (l, r, c) has its centre at `origin + size (c + ½, -(r + ½), l + ½)`,
+    metres.
 
-    `direction` (L, R, C, 3) float32, unit, root to tip, zero outside the hair; `head_distance` (L, R, C) float32, metres,
-    negative inside the head.
+    `direction` (L, R, C, 3) float32, unit, root to tip, zero outside the hair; `head_distance` (L, R, C) float32,
+    metres, negative inside the head.
     """
 
     direction: Array
@@ -203,8 +207,8 @@ class VoxelField:
 class FrontSheet:
     """The visible surface of the hair on the photograph's pixels.
 
-    `depth` (H, W) float32 metres, NaN beside the hair; `direction` (H, W, 2) float32 root to tip, y down, zero where unknown;
-    `xy_from_view` (3, 4): u = s x + cx, v = -s y + cy.
+    `depth` (H, W) float32 metres, NaN beside the hair; `direction` (H, W, 2) float32 root to tip, y down, zero where
+    unknown; `xy_from_view` (3, 4): u = s x + cx, v = -s y + cy.
     """
 
     depth: Array
@@ -216,8 +220,8 @@ class FrontSheet:
 class TraceSettings:
     """How `trace` walks; lengths in metres, `min_cosine` between two steps, `inertia` in [0, 1).
 
-    A strand ends where a voxel has `voxel_cap` strands, or (if `pixel_cap` > 0) a pixel of the sheet `pixel_cap`; seeds in
-    pixels that have a strand are then skipped.
+    A strand ends where a voxel has `voxel_cap` strands, or (if `pixel_cap` > 0) a pixel of the sheet `pixel_cap`;
+    seeds in pixels that have a strand are then skipped.
     """
 
     step: float
@@ -233,8 +237,8 @@ class TraceSettings:
 
 @dataclass(frozen=True)
 class Traced:
-    """`points` (N, 3) float64, `offsets` (S + 1,) int64, root to tip; `seed` (S,) the row of the seed; `rooted` (S,): the
-    root meets the head; `density` (L, R, C) uint16: strands in each voxel so far.
+    """`points` (N, 3) float64, `offsets` (S + 1,) int64, root to tip; `seed` (S,) the row of the seed; `rooted`
+    (S,): the root meets the head; `density` (L, R, C) uint16: strands in each voxel so far.
     """
 
     points: Array
@@ -249,7 +253,8 @@ def trace(
 ) -> Traced:
     """Streamlines both ways from `seeds` (N, 5): x, y, z, longest way to the tip, longest way to the root, metres.
 
-    Within `sheet_depth` of the sheet the picture steers and the strand keeps its depth behind it; elsewhere the voxels do.
+    Within `sheet_depth` of the sheet the picture steers and the strand keeps its depth behind it; elsewhere the
+    voxels do.
     """
     box = np.shape(field.head_distance)
     rows, columns = np.shape(sheet.depth)

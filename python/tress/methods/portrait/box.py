@@ -10,7 +10,8 @@ Array = np.ndarray[Any, Any]
 
 @dataclass(frozen=True)
 class Box:
-    """`origin` (3,) metres: corner with the least x, greatest y, least z in the view frame; `size`: edge of a voxel, metres.
+    """`origin` (3,) metres: corner with the least x, greatest y, least z in the view frame; `size`: edge of a voxel,
+    metres.
 
     Voxel (layer, row, column) has its centre at `origin + size (column + ½, -(row + ½), layer + ½)`.
     """

@@ -1,27 +1,30 @@
 """The stage `depth`: how near to the camera every vertex of the strands traced in the photograph is.
 
-The energy of Chai et al. 2012, section 3.3.1, eq. 5. Its depth constraints come from the envelope (`envelope.py`): strands near
-the outline, over the head, and along the hairline are held to it with the paper's w_Z; so are the user's
+The energy of Chai et al. 2012, section 3.3.1, eq. 5. Its depth constraints come from the envelope (`envelope.py`):
+strands near the outline, over the head, and along the hairline are held to it with the paper's w_Z; so are the user's
 depth strokes. Everywhere else the envelope holds with a weight some hundred times smaller, since strands without any
-constraint would leave the system singular. The paper's layering ("observe the local occlusion relationships") is no term
-of eq. 5; it is added as an inequality: a vertex flagged occluded lies at least `layer_gap` behind the strand that crosses
-over it. Where that is violated a constraint is set and the system is solved again.
+constraint would leave the system singular. The paper's layering ("observe the local occlusion relationships") is no
+term of eq. 5; it is added as an inequality: a vertex flagged occluded lies at least `layer_gap` behind the strand
+that crosses over it. Where that is violated a constraint is set and the system is solved again.
 """
 
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
-from tress.base.errors import InputError
+from tress.base.errors import InputError, NoHairError
 from tress.base.params import Params, param
 from tress.base.report import Report
 from tress.kernel import fields
-from tress.methods.portrait.envelope import Envelope
+from tress.methods.portrait.envelope import Envelope, Head, hair_envelope
 from tress.methods.portrait.resample_picture import pixels_from_columns, spread
 
 Array = np.ndarray[Any, Any]
+
+HAIR_ALPHA = 0.5
+"""Pixels with more hair than this belong to the body of hair."""
 
 
 class Traced(Protocol):
@@ -43,13 +46,16 @@ class DepthParams(Params):
     strand_weight: float = param(2.0, low=0.0, high=1000.0, doc="w_S: weight of straightness along a strand.")
     neighbour_weight: float = param(1.0, low=0.0, high=1000.0, doc="w_N: weight of likeness to neighbouring strands.")
     envelope_weight: float = param(0.05, low=1e-6, high=1000.0, doc="Weight of the envelope where nothing is known.")
-    known_band: float = param(0.004, low=0.0, high=0.1, unit="m", doc="Width of the known bands at outline and hairline.")
+    known_band: float = param(
+        0.004, low=0.0, high=0.1, unit="m", doc="Width of the known bands at outline and hairline."
+    )
     every: int = param(3, low=1, high=50, doc="Every how many vertices are solved for; the others lie between.")
     neighbour_radius_px: float = param(5.0, low=0.5, high=50.0, unit="px", doc="How far neighbours may be.")
     neighbour_angle: float = param(0.35, low=0.01, high=1.57, unit="rad", doc="How much their directions may differ.")
     neighbour_count: int = param(6, low=1, high=64, doc="Most neighbours of a vertex.")
     layer_gap: float = param(0.001, low=0.0, high=0.02, unit="m", doc="Least depth between crossing strands.")
     layer_rounds: int = param(2, low=0, high=10, doc="Times that violated layers are set right.")
+    voxel: float = param(0.003, low=0.0005, high=0.02, unit="m", doc="Size of the voxels around head and hair.")
     accuracy: float = param(1e-5, low=1e-12, high=0.1, doc="Relative residual at which the solver stops.")
     max_iterations: int = param(300, low=1, high=100000, doc="Most steps of the solver.")
 
@@ -71,27 +77,38 @@ class StrandDepths:
 def depth(
     traced: Traced,
     *,
-    envelope: Envelope,
-    xy_from_view: Array,
-    shape: tuple[int, int],
+    head: Head,
+    alpha: Array,
+    solid: Array,
     params: DepthParams = DepthParams(),
     depth_strokes: Array | None = None,
     report: Report,
 ) -> StrandDepths:
-    """Depth of every vertex of `traced`, whose photograph is `shape` (H, W).
+    """Depth of every vertex of `traced`.
 
-    `depth_strokes` (H, W) float: metres towards the camera from the head's centre where the user marked a depth, NaN elsewhere.
-    Raises `InputError` where shapes do not fit.
+    `alpha` (H, W): how much hair a pixel holds; `solid` (H, W) bool: face and body, which may hide hair.
+    `depth_strokes` (H, W) float: metres towards the camera from the head's centre where the user marked a depth, NaN
+    elsewhere. Raises `InputError` where shapes do not fit, `NoHairError` where no pixel is mostly hair.
     """
+    shape = alpha.shape
     if depth_strokes is not None and np.shape(depth_strokes) != shape:
         raise InputError(f"depth_strokes has shape {np.shape(depth_strokes)}; {shape} was expected.")
+    if solid.shape != shape:
+        raise InputError(f"solid has shape {solid.shape}; {shape} was expected.")
+    if not (alpha > HAIR_ALPHA).any():
+        raise NoHairError("No pixel is mostly hair; there is nothing to reconstruct.")
+    envelope, xy_from_view = hair_envelope(alpha > HAIR_ALPHA, solid, head=head, voxel=params.voxel), head.xy_from_view
     keep, offsets = _thinned(traced.offsets, params.every)
     points = np.asarray(traced.points, np.float64)[keep]
     occluded = np.asarray(traced.occluded, np.bool_)[keep]
     target, weight = _constraints(points, envelope, xy_from_view, shape, params, depth_strokes)
     near = fields.neighbours(
-        points, offsets=offsets, occluded=occluded, radius=params.neighbour_radius_px,
-        max_angle=params.neighbour_angle, most=params.neighbour_count,
+        points,
+        offsets=offsets,
+        occluded=occluded,
+        radius=params.neighbour_radius_px,
+        max_angle=params.neighbour_angle,
+        most=params.neighbour_count,
     )
     found = _solved(target, weight, offsets, near, target, params)
     for _ in range(params.layer_rounds if occluded.any() else 0):
@@ -114,8 +131,15 @@ def _solved(
     target: Array, weight: Array, offsets: Array, near: fields.Neighbours, start: Array, params: DepthParams
 ) -> fields.Depths:
     return fields.strand_depths(
-        target, weight=weight, offsets=offsets, near=near, start=start, strand_weight=params.strand_weight,
-        neighbour_weight=params.neighbour_weight, accuracy=params.accuracy, max_iterations=params.max_iterations,
+        target,
+        weight=weight,
+        offsets=offsets,
+        near=near,
+        start=start,
+        strand_weight=params.strand_weight,
+        neighbour_weight=params.neighbour_weight,
+        accuracy=params.accuracy,
+        max_iterations=params.max_iterations,
     )
 
 
@@ -131,7 +155,11 @@ def _thinned(offsets: Array, every: int) -> tuple[Array, Array]:
 
 
 def _constraints(
-    points: Array, envelope: Envelope, xy_from_view: Array, shape: tuple[int, int], params: DepthParams,
+    points: Array,
+    envelope: Envelope,
+    xy_from_view: Array,
+    shape: tuple[int, int],
+    params: DepthParams,
     strokes: Array | None,
 ) -> tuple[Array, Array]:
     """z̄ and w_Z of every vertex."""
@@ -157,7 +185,7 @@ def _over(points: Array, occluded: Array, z: Array) -> Array:
     seen = np.nonzero(~occluded)[0]
     if len(seen) == 0:
         return np.full(len(z), np.inf)
-    return z[seen[cKDTree(points[seen]).query(points)[1]]]
+    return z[seen[KDTree(points[seen]).query(points)[1]]]
 
 
 def _under(points: Array, occluded: Array, z: Array, params: DepthParams) -> Array:

@@ -1,19 +1,20 @@
 """How far the hair can reach: what the head and the outline of the hair in the photograph imply, before any strand.
 
-Hair is a layer around the skull. Where its outline stands out from the head's, the gap *is* the layer's thickness there; at
-the hairline the layer is thin. Between the two the thickness is harmonic, and the surface is where the distance to the
-support equals it: at the outline the surface turns away smoothly by construction, and back and front close. The support is
-the skull and all that lies straight below its hair-bearing part, since hair falls from the skull and does not cling to the
-neck. Beside the face the layer's front edge hangs from the temples' hairline.
+Hair is a layer around the skull. Where its outline stands out from the head's, the gap *is* the layer's thickness
+there; at the hairline the layer is thin. Between the two the thickness is harmonic, and the surface is where the
+distance to the support equals it: at the outline the surface turns away smoothly by construction, and back and front
+close. The support is the skull and all that lies straight below its hair-bearing part, since hair falls from the
+skull and does not cling to the neck. Beside the face the layer's front edge hangs from the temples' hairline.
 
 Limits: the camera's roll is taken for the direction of gravity; hair gathered behind the head (a ponytail) is not seen.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
-from scipy.ndimage import binary_dilation, maximum_filter
+from scipy.ndimage import binary_dilation, gaussian_filter, maximum_filter
 
 from tress.kernel import fields, geom
 from tress.methods.portrait.box import Box, box_around
@@ -31,10 +32,25 @@ RESTING = 0.005
 """Metres between the skin and the surface of hair that lies on it."""
 
 
+class Head(Protocol):
+    """What is read of a fitted head; see `tress.head.fit.FittedHead`."""
+
+    @property
+    def positions_in_view(self) -> Array: ...
+    @property
+    def triangles(self) -> Array: ...
+    @property
+    def masks(self) -> Mapping[str, Array]: ...
+    @property
+    def xy_from_view(self) -> Array: ...
+    @property
+    def view_from_head(self) -> Array: ...
+
+
 @dataclass(frozen=True)
 class SolidHead:
-    """The head in the box. `front`, `back` (R, C) metres, NaN beside it; `distance` (L, R, C) float32 metres to its surface,
-    negative inside; `hairline` (C,): z of the temples' hairline; `nape`: y of the lowest scalp.
+    """The head in the box. `front`, `back` (R, C) metres, NaN beside it; `distance` (L, R, C) float32 metres to its
+    surface, negative inside; `hairline` (C,): z of the temples' hairline; `nape`: y of the lowest scalp.
     """
 
     front: Array
@@ -51,8 +67,8 @@ class SolidHead:
 
 @dataclass(frozen=True)
 class Envelope:
-    """Per column (R, C): `hair` and `extended` (hair, or hidden hair behind head and body) bool; `front`, `mid`, `back` and
-    `thickness` metres. `outline`: hair columns at the background.
+    """Per column (R, C): `hair` and `extended` (hair, or hidden hair behind head and body) bool; `front`, `mid`,
+    `back` and `thickness` metres. `outline`: hair columns at the background.
     """
 
     box: Box
@@ -64,6 +80,13 @@ class Envelope:
     mid: Array
     back: Array
     thickness: Array
+
+
+def hair_envelope(hair: Array, solid: Array, *, head: Head, voxel: float) -> Envelope:
+    """The envelope for a fitted head, from the hair's pixels and those of what may hide hair, (H, W) bool each."""
+    box = hair_box(head.positions_in_view, hair, head.xy_from_view, size=voxel)
+    body = solid_head(head.positions_in_view, head.triangles, head.masks["scalp"], head.view_from_head, box)
+    return envelope(hair, solid, head=body, box=box, xy_from_view=head.xy_from_view)
 
 
 def hair_box(head_points: Array, hair: Array, xy_from_view: Array, *, size: float) -> Box:
@@ -85,7 +108,9 @@ def solid_head(positions: Array, triangles: Array, scalp: Array, view_from_head:
     close = np.abs(signed) < 2.5 * box.size
     signed[close] = geom.signed_distances(positions, triangles=triangles, queries=box.centres(close)).distance
     bearing = positions[scalp > 0.5]
-    return SolidHead(depth.front, depth.back, signed, _hairline(bearing, view_from_head, box), float(bearing[:, 1].min()))
+    return SolidHead(
+        depth.front, depth.back, signed, _hairline(bearing, view_from_head, box), float(bearing[:, 1].min())
+    )
 
 
 def _hairline(scalp: Array, view_from_head: Array, box: Box) -> Array:
@@ -111,7 +136,7 @@ def envelope(hair: Array, solid: Array, *, head: SolidHead, box: Box, xy_from_vi
     thickness = _harmonic(np.where(inner, at_hairline, gap + GRAZE), hair_here, known)
     shell = _surface(reach, np.maximum(thickness, gap + GRAZE / 2), box, from_front=True)
     nearest = np.minimum(box.z[reach.argmin(axis=0)], 0.0)
-    front = _with_curtain(shell, nearest, head, inner, hair_here, known, box)
+    front = _smooth(_with_curtain(shell, nearest, head, inner, hair_here, known, box), hair_here)
     extended = _extended(hair_here, hidden, head, box)
     behind = np.maximum(_harmonic(gap + GRAZE, extended, outline), gap + GRAZE / 2)
     back = _surface(reach, behind, box, from_front=False)
@@ -121,11 +146,11 @@ def envelope(hair: Array, solid: Array, *, head: SolidHead, box: Box, xy_from_vi
 
 def _support_distance(head: SolidHead, box: Box) -> Array:
     """Metres to the head and to what lies straight below its hair-bearing part."""
-    inside = head.distance <= 0
+    inside = np.less_equal(head.distance, 0)
     z, y = box.z[:, None, None], box.y[None, :, None]
-    bearing = inside & (z <= head.hairline) & (y > 0)
+    bearing = np.logical_and(inside, (z <= head.hairline) & (y > 0))
     below = np.logical_or.accumulate(bearing, axis=1)
-    return fields.distance(inside | below) * np.float32(box.size)
+    return fields.distance(np.logical_or(inside, below)) * np.float32(box.size)
 
 
 def _near_front(head: SolidHead) -> Array:
@@ -151,6 +176,12 @@ def _with_curtain(
     share = np.clip((0.8 - box.y / crown) / 0.3, 0, 1)[:, None]
     share = share * share * (3 - 2 * share)
     return np.maximum(shell, curtain * share + shell * (1 - share))
+
+
+def _smooth(values: Array, mask: Array) -> Array:
+    """Gaussian mean over the mask by one and a half columns: the steps of the voxels go."""
+    share = gaussian_filter(mask.astype(float), 1.5)
+    return np.where(mask, gaussian_filter(np.where(mask, values, 0.0), 1.5) / np.maximum(share, 1e-6), values)
 
 
 def _extended(hair: Array, hidden: Array, head: SolidHead, box: Box) -> Array:

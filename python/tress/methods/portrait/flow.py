@@ -1,8 +1,8 @@
 """Which way the hair flows at every pixel, root to tip: the sparse orientation filled in, and given a sense.
 
-Orientations are averaged as double angles weighted by their confidence, at growing scales: a pixel takes the finest scale at
-which enough is known. A picture does not tell forth from back; hair is taken to run away from the crown and downwards,
-and where that says nothing (across), as its surroundings do.
+Orientations are averaged as double angles weighted by their confidence, at growing scales: a pixel takes the finest
+scale at which enough is known. A picture does not tell forth from back; hair is taken to run away from the crown and
+downwards, and where that says nothing (across), as its surroundings do.
 
 Limits: hair combed up from the forehead gets the wrong sense; its orientation is right all the same.
 """
@@ -31,7 +31,9 @@ class FlowParams(Params):
 
 @dataclass(frozen=True)
 class HairFlow:
-    """`direction` (H, W, 2) float32 root to tip, unit, y down, zero beside the hair; `trust` (H, W) float32 in [0, 1]."""
+    """`direction` (H, W, 2) float32 root to tip, unit, y down, zero beside the hair; `trust` (H, W) float32 in [0,
+    1].
+    """
 
     direction: Array
     trust: Array
@@ -40,15 +42,17 @@ class HairFlow:
 def hair_flow(
     angle: Array, *, confidence: Array, hair: Array, crown_px: Array, head_px: float, params: FlowParams = FlowParams()
 ) -> HairFlow:
-    """From strand angles (H, W), NaN where unknown, `confidence` (H, W) in [0, 1], the pixels of `hair` (H, W) bool, the
-    crown's pixel (2,), and the head's height in pixels. About 0.1 s for 500 x 500 px.
+    """From strand angles (H, W), NaN where unknown, `confidence` (H, W) in [0, 1], the pixels of `hair` (H, W) bool,
+    the crown's pixel (2,), and the head's height in pixels. About 0.1 s for 500 x 500 px.
     """
     weight = np.where(np.isfinite(angle) & hair, confidence, 0).astype(np.float32)
     twice = 2 * np.nan_to_num(angle).astype(np.float32)
     doubled, trust = _filled(np.dstack([np.cos(twice) * weight, np.sin(twice) * weight, weight]), params)
     half = np.arctan2(doubled[..., 1], doubled[..., 0]) / 2
     axis = np.dstack([np.cos(half), np.sin(half)])
-    return HairFlow((_with_sense(axis, crown_px, head_px, hair, params) * hair[..., None]).astype(np.float32), trust * hair)
+    return HairFlow(
+        (_with_sense(axis, crown_px, head_px, hair, params) * hair[..., None]).astype(np.float32), trust * hair
+    )
 
 
 def _filled(data: Array, params: FlowParams) -> tuple[Array, Array]:

@@ -1,8 +1,8 @@
 """Strands in the hair volume: a visible layer that re-covers the photograph pixel by pixel, and the body behind it.
 
-Chai et al. 2012, section 3.3.2. Both are streamlines through one field (`tress.kernel.fields.trace`): the visible ones start
-at every hair pixel that has no strand yet, follow the picture, and go on into the volume to their root and tip; the
-others start at random voxels until `count` strands are there or the voxels are full.
+Chai et al. 2012, section 3.3.2. Both are streamlines through one field (`tress.kernel.fields.trace`): the visible
+ones start at every hair pixel that has no strand yet, follow the picture, and go on into the volume to their root
+and tip; the others start at random voxels until `count` strands are there or the voxels are full.
 """
 
 from dataclasses import dataclass
@@ -13,6 +13,8 @@ import numpy as np
 from tress.base.params import Params, param
 from tress.base.report import Report
 from tress.kernel import fields
+from tress.methods.portrait.envelope import Head
+from tress.methods.portrait.strand_colors import strand_colors
 from tress.methods.portrait.volume import HairVolume
 
 Array = np.ndarray[Any, Any]
@@ -36,49 +38,71 @@ class GrowParams(Params):
 
 @dataclass(frozen=True)
 class GrownHair:
-    """Strands in the view frame, metres: `points` (N, 3) float32, `offsets` (S + 1,) int64, root to tip; `visible` (S,): on the
-    photograph's surface; `rooted` (S,): the root meets the head.
+    """Strands in the view frame, root to tip: `points` (N, 3) float32 metres, `offsets` (S + 1,) int64, `color` (N,
+    3) float32 linear, `alpha` (N,) float32 in [0, 1]. Per strand: `visible`, on the photograph's surface; `rooted`,
+    the root meets the head.
     """
 
     points: Array
     offsets: Array
+    color: Array
+    alpha: Array
     visible: Array
     rooted: Array
 
 
 def grow(
-    hair: HairVolume, *, depth: Array, direction: Array, xy_from_view: Array,
-    params: GrowParams, seed: int, report: Report,
+    hair: HairVolume,
+    *,
+    foreground: Array,
+    alpha: Array,
+    head: Head,
+    params: GrowParams = GrowParams(),
+    seed: int = 0,
+    report: Report,
 ) -> GrownHair:
-    """From the volume, the depth of the visible surface `depth` (H, W) metres, NaN beside the hair, and `direction` (H, W, 2)."""
+    """Up to `params.count` strands; `foreground` (H, W, 3) linear and `alpha` (H, W) are those of the matte."""
     random = np.random.default_rng(seed)
+    matrix = head.xy_from_view
     field = fields.VoxelField(hair.direction, hair.head_distance, hair.origin, hair.voxel)
-    sheet = fields.FrontSheet(depth, direction, xy_from_view)
+    sheet = fields.FrontSheet(hair.sheet, hair.flow.direction, matrix)
+    step = params.visible_step_px / matrix[0, 0]
+    most = int(params.visible_share * params.count)
     seen = fields.trace(
-        _visible_seeds(depth, xy_from_view, params, random), field=field, sheet=sheet,
-        settings=_settings(params, params.visible_step_px / xy_from_view[0, 0], params.pixel_cap,
-                           int(params.visible_share * params.count)),
+        _visible_seeds(hair.sheet, matrix, params, random),
+        field=field,
+        sheet=sheet,
+        settings=_settings(params, step, params.pixel_cap, most),
     )
     rest = params.count - (len(seen.offsets) - 1)
     hidden = fields.trace(
-        _hidden_seeds(hair, 3 * rest, params, random), field=field, sheet=sheet,
-        settings=_settings(params, params.hidden_step, 0, rest), density=seen.density,
+        _hidden_seeds(hair, 3 * rest, params, random),
+        field=field,
+        sheet=sheet,
+        settings=_settings(params, params.hidden_step, 0, rest),
+        density=seen.density,
     )
+    points = np.concatenate([seen.points, hidden.points]).astype(np.float32)
+    offsets = np.concatenate([seen.offsets, hidden.offsets[1:] + len(seen.points)])
+    visible = np.repeat([True, False], [len(seen.offsets) - 1, len(hidden.offsets) - 1])
     report.number("visible_strands", len(seen.offsets) - 1)
     report.number("hidden_strands", len(hidden.offsets) - 1)
-    report.number("vertices", len(seen.points) + len(hidden.points))
-    return GrownHair(
-        np.concatenate([seen.points, hidden.points]).astype(np.float32),
-        np.concatenate([seen.offsets, hidden.offsets[1:] + len(seen.points)]),
-        np.repeat([True, False], [len(seen.offsets) - 1, len(hidden.offsets) - 1]),
-        np.concatenate([seen.rooted, hidden.rooted]),
-    )
+    report.number("vertices", len(points))
+    color, opacity = strand_colors(points, offsets, visible, hair, foreground, alpha, matrix, random)
+    return GrownHair(points, offsets, color, opacity, visible, np.concatenate([seen.rooted, hidden.rooted]))
 
 
 def _settings(params: GrowParams, step: float, pixel_cap: int, most: int) -> fields.TraceSettings:
     return fields.TraceSettings(
-        step=step, min_length=params.shortest, sheet_depth=params.sheet_depth, min_cosine=0.5, inertia=0.2,
-        voxel_cap=params.voxel_cap, pixel_cap=pixel_cap, clearance=params.clearance, most=most,
+        step=step,
+        min_length=params.shortest,
+        sheet_depth=params.sheet_depth,
+        min_cosine=0.5,
+        inertia=0.2,
+        voxel_cap=params.voxel_cap,
+        pixel_cap=pixel_cap,
+        clearance=params.clearance,
+        most=most,
     )
 
 

@@ -43,7 +43,9 @@ def pixels_from_columns(values: Array, box: Box, xy_from_view: Array, *, shape: 
 
 
 def spread(values: Array, known: Array) -> Array:
-    """(rows, columns): `values` where `known`, elsewhere that of the nearest known cell; as they are if none is known."""
+    """(rows, columns): `values` where `known`, elsewhere that of the nearest known cell; as they are if none is
+    known.
+    """
     if not known.any():
         return values
     nearest = distance_transform_edt(~known, return_distances=False, return_indices=True)

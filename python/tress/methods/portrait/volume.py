@@ -1,15 +1,15 @@
 """The body of hair: D_front, D_mid, D_back, and a direction in every voxel between them.
 
-Chai et al. 2012, section 3.3.2. The front is the strands' depth; the back is pushed behind the head by the thickness that the
-outline shows. Directions known from the photograph are turned into structure tensors (which know no forth and back, so that
-hair parted to both sides does not cancel), diffused with their sense through the voxels, and laid into the layers of
-the hair. Hidden hair has a weak wish of its own: down along the layer. Towards the tip strands rise a little through the
-layers, so that followed to the root they dive to the scalp, upper hair covering lower hair.
+Chai et al. 2012, section 3.3.2. The front is the strands' depth; the back is pushed behind the head by the thickness
+that the outline shows. Directions known from the photograph are turned into structure tensors (which know no forth
+and back, so that hair parted to both sides does not cancel), diffused with their sense through the voxels, and laid
+into the layers of the hair. Hidden hair has a weak wish of its own: down along the layer. Towards the tip strands
+rise a little through the layers, so that followed to the root they dive to the scalp, upper hair covering lower hair.
 
 Limits: what the photograph does not show follows gravity; a ponytail or a bun behind the head is not invented.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -19,8 +19,10 @@ from tress.base.params import Params, param
 from tress.base.report import Report
 from tress.kernel import fields
 from tress.methods.portrait.box import Box
-from tress.methods.portrait.envelope import Envelope
-from tress.methods.portrait.resample_picture import columns_from_pixels
+from tress.methods.portrait.depth import StrandDepths, Traced
+from tress.methods.portrait.envelope import Envelope, Head
+from tress.methods.portrait.flow import FlowParams, HairFlow, hair_flow
+from tress.methods.portrait.resample_picture import columns_from_pixels, pixels_from_columns, spread
 
 Array = np.ndarray[Any, Any]
 
@@ -36,13 +38,19 @@ class VolumeParams(Params):
     layer_share: float = param(0.8, low=0.0, high=1.0, doc="How far directions are turned into the layers.")
     rise: float = param(0.12, low=0.0, high=1.0, doc="Slope by which strands rise through the layers near the scalp.")
     thickest: float = param(0.035, low=0.005, high=0.1, unit="m", doc="Deepest hair that is filled.")
+    seen_alpha: float = param(0.15, low=0.0, high=1.0, doc="Pixels with more hair than this get visible strands.")
+    flow: FlowParams = field(default_factory=FlowParams)
     thinnest: float = param(0.010, low=0.002, high=0.05, unit="m", doc="Hair that is filled where the layer is thin.")
 
 
 @dataclass(frozen=True)
 class HairVolume:
-    """Depth maps (R, C) float32 metres, NaN beside the hair; per voxel (L, R, C): `inside` bool, `direction` (…, 3) float32
-    unit, root to tip, zero outside, `head_distance` float32 metres. `origin` (3,), `voxel` metres as in `Box`.
+    """Where hair is and which way it runs.
+
+    Per column (R, C) float32 metres, NaN beside the hair: `front`, `mid`, `back`. Per voxel (L, R, C): `inside` bool;
+    `direction` (…, 3) float32 unit, root to tip, zero outside; `head_distance` float32 metres, negative in the head.
+    `origin` (3,) and `voxel` metres as in `Box`. Per pixel: `sheet` (H, W) float32, depth of the visible surface,
+    NaN beside the hair, and `flow`, the direction in the picture.
     """
 
     origin: Array
@@ -53,6 +61,8 @@ class HairVolume:
     inside: Array
     direction: Array
     head_distance: Array
+    sheet: Array
+    flow: HairFlow
 
     @property
     def box(self) -> Box:
@@ -61,30 +71,75 @@ class HairVolume:
 
 
 def volume(
-    surface: Envelope, *, front: Array, direction: Array, confidence: Array, xy_from_view: Array,
-    params: VolumeParams, report: Report,
+    depths: StrandDepths,
+    *,
+    traced: Traced,
+    angle: Array,
+    confidence: Array,
+    alpha: Array,
+    head: Head,
+    params: VolumeParams = VolumeParams(),
+    report: Report,
 ) -> HairVolume:
-    """From the envelope, the strands' depth per column `front` (R, C), and per pixel `direction` (H, W, 2) root to tip, y
-    down, and `confidence` (H, W) in [0, 1].
+    """The volume, from the strands' depths and the orientation (`angle`, `confidence`) and matte (`alpha`) of the
+    photo.
     """
-    box, head = surface.box, surface.head
+    surface, matrix = depths.envelope, head.xy_from_view
+    box, solid = surface.box, surface.head
+    hair = alpha > params.seen_alpha
+    flow = hair_flow(
+        angle, confidence=confidence, hair=hair, crown_px=_crown(head), head_px=_height(head), params=params.flow
+    )
+    front = _front(depths, traced, matrix)
     inside, depth_m = _filled(surface, front, params)
-    layer, normal = _layers(inside, depth_m, head.distance)
-    flat, trust = _column_directions(direction, confidence, surface, xy_from_view)
+    layer, normal = _layers(depth_m, solid.distance)
+    flat, trust = _column_directions(flow, surface, matrix)
     tensors, senses, weights = _data(inside, front, flat, trust, normal, surface, params)
-    field = fields.diffuse(
+    found = fields.diffuse(
         np.concatenate([tensors, senses], axis=-1), mask=inside, weights=weights, accuracy=1e-3, max_iterations=200
     )
-    axes = fields.principal_axes(field.values[inside][:, :6], hints=field.values[inside][:, 6:])
+    axes = fields.principal_axes(found.values[inside][:, :6], hints=found.values[inside][:, 6:])
     out = np.zeros((*box.shape, 3), np.float32)
-    out[inside] = _laid(axes, layer[inside], normal[inside], head.distance[inside], params)
+    out[inside] = _laid(axes, layer[inside], normal[inside], solid.distance[inside], params)
     report.number("voxels", int(inside.sum()))
-    report.number("diffusion_steps", field.iterations)
-    report.number("diffusion_converged", field.converged)
+    report.number("diffusion_steps", found.iterations)
+    report.number("diffusion_converged", found.converged)
     seen = surface.extended
-    maps = [np.where(where, values, np.nan).astype(np.float32)
-            for where, values in ((surface.hair, front), (seen, surface.mid), (seen, surface.back))]
-    return HairVolume(box.origin, box.size, *maps, inside, out, head.distance)
+    front_map, mid, back = (
+        np.where(where, values, np.nan).astype(np.float32)
+        for where, values in ((surface.hair, front), (seen, surface.mid), (seen, surface.back))
+    )
+    sheet = pixels_from_columns(spread(front, surface.hair), box, matrix, shape=alpha.shape)
+    sheet[~hair] = np.nan
+    return HairVolume(box.origin, box.size, front_map, mid, back, inside, out, solid.distance, sheet, flow)
+
+
+def _crown(head: Head) -> Array:
+    """(2,) px: where the highest scalp of the upright head is in the photo."""
+    upright = head.positions_in_view @ head.view_from_head[:3, 1]
+    top = head.positions_in_view[int(upright.argmax())]
+    return head.xy_from_view[:2, :3] @ top + head.xy_from_view[:2, 3]
+
+
+def _height(head: Head) -> float:
+    """Height of the head in pixels."""
+    return float(np.ptp(head.positions_in_view[:, 1]) * head.xy_from_view[0, 0])
+
+
+def _front(depths: StrandDepths, traced: Traced, xy_from_view: Array) -> Array:
+    """(R, C) metres: the envelope, moved by what the strands' depths differ from it, diffused over the hair."""
+    surface = depths.envelope
+    box = surface.box
+    if len(depths.z) == 0:
+        return surface.front
+    column = ((traced.points[:, 0] - xy_from_view[0, 3]) / xy_from_view[0, 0] - box.origin[0]) / box.size
+    row = (box.origin[1] - (traced.points[:, 1] - xy_from_view[1, 3]) / xy_from_view[1, 1]) / box.size
+    column, row = (np.clip(np.floor(v).astype(int), 0, n - 1) for v, n in ((column, box.columns), (row, box.rows)))
+    count, total = np.zeros(surface.hair.shape), np.zeros(surface.hair.shape)
+    np.add.at(count, (row, column), 1.0)
+    np.add.at(total, (row, column), depths.z - surface.front[row, column])
+    moved = fields.diffuse(total / np.maximum(count, 1), mask=surface.hair, weights=np.minimum(count / 8, 1.0) + 1e-4)
+    return surface.front + moved.values
 
 
 def _filled(surface: Envelope, front: Array, params: VolumeParams) -> tuple[Array, Array]:
@@ -100,26 +155,27 @@ def _filled(surface: Envelope, front: Array, params: VolumeParams) -> tuple[Arra
     return between & (head.distance > 0.3 * box.size) & (depth_m <= reach + box.size), depth_m
 
 
-def _layers(inside: Array, depth_m: Array, head_distance: Array) -> tuple[Array, Array]:
-    """(L, R, C): 0 at the scalp, 1 at the outer surface; and the unit normal outwards (L, R, C, 3), zero where unclear."""
+def _layers(depth_m: Array, head_distance: Array) -> tuple[Array, Array]:
+    """(L, R, C): 0 at the scalp, 1 at the surface; and the unit normal outwards (L, R, C, 3), zero where unclear."""
     skin = np.maximum(head_distance, 0)
     layer = gaussian_filter(skin / np.maximum(skin + depth_m, 1e-6), 1.0)
-    down, back, right = np.gradient(layer)[1], np.gradient(layer, axis=0), np.gradient(layer, axis=2)
-    slope = np.stack([right, -down, back], axis=-1)
+    towards, down, right = (np.gradient(layer, axis=k) for k in range(3))
+    slope = np.stack([right, -down, towards], axis=-1)
     length = np.linalg.norm(slope, axis=-1, keepdims=True)
     return layer, np.where(length > 1e-4, slope / np.maximum(length, 1e-9), 0.0)
 
 
-def _column_directions(
-    direction: Array, confidence: Array, surface: Envelope, xy_from_view: Array
-) -> tuple[Array, Array]:
-    """Mean direction (R, C, 2), y up, of each column's pixels by their double angle and their sense; its trust (R, C)."""
-    x, y = direction[..., 0], direction[..., 1]
-    known = (x * x + y * y > 0.25) * confidence
+def _column_directions(flow: HairFlow, surface: Envelope, xy_from_view: Array) -> tuple[Array, Array]:
+    """Mean direction (R, C, 2), y up, of each column's pixels, by double angle and by sense; its trust (R, C)."""
+    x, y, known = flow.direction[..., 0], flow.direction[..., 1], flow.trust
     double = np.stack([known * (x * x - y * y), known * 2 * x * y, known * x, known * y, known], axis=-1)
     mean = np.concatenate(
-        [columns_from_pixels(double[..., :3], surface.box, xy_from_view),
-         columns_from_pixels(double[..., 3:], surface.box, xy_from_view)], axis=-1)
+        [
+            columns_from_pixels(double[..., :3], surface.box, xy_from_view),
+            columns_from_pixels(double[..., 3:], surface.box, xy_from_view),
+        ],
+        axis=-1,
+    )
     angle = np.arctan2(mean[..., 1], mean[..., 0]) / 2
     flat = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     sense = np.sign((flat * mean[..., 2:4]).sum(axis=-1))
