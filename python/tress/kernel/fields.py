@@ -104,8 +104,9 @@ def principal_axes(tensors: Any, *, hints: Any) -> Array:
 
     `tensors` (N, 6): xx, yy, zz, xy, xz, yz. Where no axis is largest, the normalised hint; zero where that is zero.
 
-    >>> principal_axes([[0, 4, 1, 0, 0, 0]], hints=[[0, -1, 0]]).round(6).tolist()
-    [[0.0, -1.0, 0.0]]
+    >>> axis = principal_axes([[0, 4, 1, 0, 0, 0]], hints=[[0, -1, 0]])
+    >>> bool(np.allclose(axis, [[0, -1, 0]]))
+    True
     """
     rows = checked(tensors, name="tensors", dtype=np.float64, shape=(None, 6))
     return _core.fields_principal_axes(rows, checked(hints, name="hints", dtype=np.float64, shape=(len(rows), 3)))
@@ -168,8 +169,9 @@ def strand_depths(
     gradients with every strand's own band inverted exactly.
 
     >>> lists = Neighbours(np.zeros(4, np.int64), np.zeros(0, np.uint32))
-    >>> strand_depths([0, 0, 2], weight=[5, 0, 5], offsets=[0, 3], near=lists, start=[0, 0, 0]).z.round(3).tolist()
-    [0.0, 1.0, 2.0]
+    >>> found = strand_depths([0, 0, 2], weight=[5, 0, 5], offsets=[0, 3], near=lists, start=[0, 0, 0])
+    >>> bool(np.allclose(found.z, [0, 1, 2]))
+    True
     """
     goal = checked(target, name="target", dtype=np.float64, shape=(None,))
     count = (len(goal),)

@@ -128,8 +128,8 @@ def envelope(hair: Array, solid: Array, *, head: SolidHead, box: Box, xy_from_vi
     background = ~(hair_here | hidden)
     reach = _support_distance(head, box)
     gap = reach.min(axis=0)
-    outline = hair_here & binary_dilation(background)
-    inner = hair_here & ~outline & binary_dilation(hidden & ~hair_here)
+    outline = np.logical_and(hair_here, binary_dilation(background))
+    inner = np.logical_and(hair_here & ~outline, binary_dilation(hidden & ~hair_here))
     resting = np.maximum(_near_front(head) + RESTING, head.hairline)
     at_hairline = _at_depth(reach, resting, box)
     known = outline | inner

@@ -8,6 +8,9 @@ from tress.image.layers import LayerParams
 from tress.image.matte import MatteParams
 from tress.image.orient import OrientParams
 from tress.image.trace import TraceParams
+from tress.methods.portrait.depth import DepthParams
+from tress.methods.portrait.grow import GrowParams
+from tress.methods.portrait.volume import VolumeParams
 
 
 @dataclass(frozen=True)
@@ -20,3 +23,6 @@ class PortraitParams(Params):
     matte: MatteParams = field(default_factory=MatteParams)
     orientation: OrientParams = field(default_factory=OrientParams)
     trace: TraceParams = field(default_factory=TraceParams)
+    depth: DepthParams = field(default_factory=DepthParams)
+    volume: VolumeParams = field(default_factory=VolumeParams)
+    strands: GrowParams = field(default_factory=GrowParams)

@@ -9,19 +9,23 @@ from numpy.typing import NDArray
 from tress.base.color import linear_to_srgb8
 from tress.base.errors import NoHairError
 from tress.base.report import Report
+from tress.image.labels import BODY, FACE
 from tress.image.layers import Layers
 from tress.image.matte import Matte
 from tress.image.orient import OrientationMap
 from tress.image.trace import TracedStrands
 from tress.io.stage_cache import StageCache
 from tress.methods.portrait.corrections import Corrections
+from tress.methods.portrait.depth import StrandDepths, depth
 from tress.methods.portrait.document import portrait_document
+from tress.methods.portrait.grow import GrownHair, grow
 from tress.methods.portrait.head import PortraitHead, head_stage
 from tress.methods.portrait.layers import has_hair, layers_stage
 from tress.methods.portrait.matte import matte_stage
 from tress.methods.portrait.orientation import orientation
 from tress.methods.portrait.params import PortraitParams
 from tress.methods.portrait.pictures import (
+    depth_colors,
     layers_picture,
     matte_picture,
     mesh_picture,
@@ -30,6 +34,8 @@ from tress.methods.portrait.pictures import (
 )
 from tress.methods.portrait.stage import Stage, Work, fingerprints, run_stages
 from tress.methods.portrait.trace import trace
+from tress.methods.portrait.volume import HairVolume, volume
+from tress.methods.portrait.volume_picture import volume_picture
 from tress.model.document import Document
 
 
@@ -137,11 +143,79 @@ def _trace_picture(work: Work) -> NDArray[np.uint8]:
     return strands_picture(traced.points, offsets=traced.offsets, colors=colors, shape=work.pixels.shape[:2])
 
 
+def _depth(work: Work, report: Report) -> StrandDepths:
+    label = work["layers"].label
+    return depth(
+        work["trace"],
+        head=work["head"].fitted,
+        alpha=work["matte"].alpha,
+        solid=(label == FACE) | (label == BODY),
+        params=work.params.depth,
+        depth_strokes=work.corrections.depth_strokes,
+        report=report,
+    )
+
+
+def _depth_picture(work: Work) -> NDArray[np.uint8]:
+    traced: TracedStrands = work["trace"]
+    z = work["depth"].z
+    return strands_picture(
+        traced.points, offsets=traced.offsets, colors=depth_colors(z), shape=work.pixels.shape[:2], depth=z
+    )
+
+
+def _volume(work: Work, report: Report) -> HairVolume:
+    found: OrientationMap = work["orientation"]
+    return volume(
+        work["depth"],
+        traced=work["trace"],
+        angle=found.angle,
+        confidence=found.confidence,
+        alpha=work["matte"].alpha,
+        head=work["head"].fitted,
+        params=work.params.volume,
+        report=report,
+    )
+
+
+def _volume_picture(work: Work) -> NDArray[np.uint8]:
+    return volume_picture(work["volume"])
+
+
+def _strands(work: Work, report: Report) -> GrownHair:
+    matte: Matte = work["matte"]
+    return grow(
+        work["volume"],
+        foreground=matte.foreground,
+        alpha=matte.alpha,
+        head=work["head"].fitted,
+        params=work.params.strands,
+        seed=work.params.seed,
+        report=report,
+    )
+
+
+def _strands_picture(work: Work) -> NDArray[np.uint8]:
+    grown: GrownHair = work["strands"]
+    matrix = work["head"].fitted.xy_from_view
+    xy_px = grown.points @ matrix[:2, :3].T + matrix[:2, 3]
+    return strands_picture(
+        xy_px,
+        offsets=grown.offsets,
+        colors=linear_to_srgb8(grown.color),
+        shape=work.pixels.shape[:2],
+        depth=grown.points[:, 2],
+    )
+
+
 STAGES: Final[tuple[Stage, ...]] = (
     Stage("head", _head, _head_picture, corrections=("face", "landmarks")),
     Stage("layers", _layers, _layers_picture, corrections=("strokes",)),
     Stage("matte", _matte, _matte_picture),
     Stage("orientation", _orientation, _orientation_picture),
     Stage("trace", _trace, _trace_picture),
+    Stage("depth", _depth, _depth_picture, corrections=("depth_strokes",)),
+    Stage("volume", _volume, _volume_picture),
+    Stage("strands", _strands, _strands_picture),
 )
 """Every stage in order; a new one is its file and a line here."""
