@@ -72,6 +72,15 @@ def test_noise_is_refused(noise):
             decode_hair(data)
 
 
+@pytest.mark.parametrize("place", [192, 212, 232])
+@pytest.mark.parametrize("number", [0x7F810000, 0x7FC00000, 0xFF800000])
+def test_attributes_that_are_no_numbers_are_refused(place, number):
+    data = bytearray(encode_hair(HAIR))
+    struct.pack_into("<I", data, place, number)
+    with pytest.raises(FormatError, match="not finite"):
+        decode_hair(bytes(data))
+
+
 def header(strand_count, point_count, bits, *, segments=0):
     return struct.pack("<4s4I5f88s", b"HAIR", strand_count, point_count, bits, segments, 0, 0, 0, 0, 0, b"")
 

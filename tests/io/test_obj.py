@@ -66,6 +66,7 @@ def test_texture_coordinates_follow_the_fan():
         (SQUARE + b"f 1/1 2/2 3/3\n", "Line 5"),
         (SQUARE + b"l 1\n", "at least 2"),
         (b"v 0 0 nan\nv 0 0 0\nl 1 2\n", "not finite"),
+        (b"v 0 0 0 nan 0 0\nv 0 0 0 1e40 0 0\nl 1 2\n", "not finite"),
         (b"v 0 0 1e300\nv 0 0 0\nl 1 2\n", "not finite"),
     ],
 )

@@ -55,6 +55,7 @@ def test_the_callers_array_is_neither_frozen_nor_shared():
         ({"offsets": [0, 4, 2, 5]}, "Strand 1 has -2 points"),
         ({"offsets": [0, 4, 5]}, "Strand 1 has 1 points"),
         ({"point_attributes": {"alpha": np.ones(4)}}, r'"alpha"\] has shape \(4,\); \(5\) was expected'),
+        ({"point_attributes": {"radius": -np.ones(5)}}, "Radii run from -1.0 to -1.0 m"),
         ({"point_attributes": {"color": np.ones(5)}}, r"\(5, 3\) was expected"),
         ({"point_attributes": {"wind": np.ones(4)}}, "5 rows"),
         ({"point_attributes": {"wind": np.ones(5, "f2")}}, "dtype float16; one of float32"),

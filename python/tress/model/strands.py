@@ -17,6 +17,7 @@ Array = np.ndarray[Any, Any]
 
 STANDARD_POINT_ATTRIBUTES = {"color": ("f4", (3,)), "alpha": ("f4", ()), "radius": ("f4", ())}
 STANDARD_STRAND_ATTRIBUTES = {"root_triangle": ("i4", ()), "root_barycentric": ("f4", (3,)), "visible": ("?", ())}
+MAX_RADIUS_M = 1e6  # files of others have units of their own
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,8 +27,8 @@ class Strands(Record):
     Standard point attributes: `color` (N, 3) float32 linear RGB, `alpha` (N,) float32 in [0, 1], `radius` (N,) float32
     metres. Standard strand attributes: `root_triangle` (S,) int32 (-1: not rooted), `root_barycentric` (S, 3) float32,
     `visible` (S,) bool (traced in the photograph). Others may be added: float32, float64, int32, int64, uint8
-    or bool; a name is used once. Raises `InputError` for wrong shapes, offsets out of order and
-    numbers that are not finite.
+    or bool; a name is used once. Raises `InputError` for wrong shapes, offsets out of order, negative
+    radii and numbers that are not finite.
 
     >>> strands = Strands(points=[[0, 0, 0], [0, 1, 0], [0, 2, 0]], offsets=[0, 3])
     >>> strands.count, strands.points.dtype.name
@@ -62,6 +63,10 @@ class Strands(Record):
         if len(self.offsets) > 1 and self.lengths.min() < 2:
             strand = int(np.argmin(self.lengths))
             raise InputError(f"Strand {strand} has {self.lengths[strand]} points; at least 2 were expected.")
+
+        radius = self.point_attributes.get("radius")
+        if radius is not None and radius.size and not 0 <= radius.min() <= radius.max() <= MAX_RADIUS_M:
+            raise InputError(f"Radii run from {radius.min()} to {radius.max()} m; 0 to {MAX_RADIUS_M} were expected.")
 
     def evaluated(self, document: "Document", time: float) -> "Strands":
         """The strands themselves."""

@@ -68,18 +68,11 @@ def decode_hair(data: bytes) -> Strands:
         raise FormatError(
             f"The .hair file announces {header.points} points, but its strands have {(segments + 1).sum()}."
         )
-    attributes = {}
-    if THICKNESS in arrays:
-        attributes["radius"] = arrays[THICKNESS] / np.float32(2)
-    if TRANSPARENCY in arrays:
-        attributes["alpha"] = np.float32(1) - arrays[TRANSPARENCY]
-    if COLORS in arrays:
-        attributes["color"] = arrays[COLORS].reshape(-1, 3)
     try:
         return Strands(
             points=arrays[POINTS].reshape(-1, 3),
             offsets=np.concatenate([np.zeros(1, np.int64), np.cumsum(segments + 1)]),
-            point_attributes=attributes,
+            point_attributes=_attributes(arrays),
         )
     except InputError as error:
         raise FormatError(f"The .hair file is damaged: {error}") from error
@@ -123,6 +116,18 @@ def _header(data: bytes) -> _Header:
     if not bits & POINTS:
         raise FormatError("The .hair file holds no points.")
     return _Header(strands, points, bits, default_segments)
+
+
+def _attributes(arrays: dict[int, Array]) -> dict[str, Array]:
+    attributes = {}
+    with np.errstate(invalid="ignore"):  # what is not a number is refused with the strands
+        if THICKNESS in arrays:
+            attributes["radius"] = arrays[THICKNESS] / np.float32(2)
+        if TRANSPARENCY in arrays:
+            attributes["alpha"] = np.float32(1) - arrays[TRANSPARENCY]
+    if COLORS in arrays:
+        attributes["color"] = arrays[COLORS].reshape(-1, 3)
+    return attributes
 
 
 def _arrays(data: bytes, header: _Header) -> dict[int, Array]:

@@ -68,7 +68,7 @@ def write_reconstruction(strands: Strands, path: Path, *, camera: Camera, maps: 
     arrays = {"points": strands.points, "offsets": strands.offsets, "xy_from_points": camera.xy_from_world}
     arrays |= {"height_width": np.array(size)} | _checked_maps(maps or Maps(), size)
     with atomic_path(path) as temporary, temporary.open("wb") as file:
-        np.savez(file, **arrays)
+        np.savez(file, **arrays)  # pyright: ignore[reportArgumentType]  # NumPy 2.0 has no `allow_pickle` here
 
 
 def write_npz(document: Document, path: Path) -> None:

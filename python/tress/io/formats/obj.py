@@ -160,10 +160,12 @@ class _File:
     def _strands(self, part: _Object, vertices: Array) -> Strands:
         order = np.array([number for line in part.lines for number in line], np.int64)
         colored = order.size and np.array(self.colored)[order].all()
+        with np.errstate(all="ignore"):  # what is not a number is refused with the strands
+            color = srgb_to_linear(vertices[order, 3:])
         return Strands(
             points=vertices[order, :3],
             offsets=np.cumsum([0, *(len(line) for line in part.lines)]),
-            point_attributes={"color": srgb_to_linear(vertices[order, 3:])} if colored else {},
+            point_attributes={"color": color} if colored else {},
         )
 
     def _mesh(self, part: _Object, vertices: Array) -> Mesh:

@@ -53,7 +53,8 @@ def strands_of(prim: Prim) -> Strands:
         if name in prim.attributes:
             point_attributes[standard] = exact_values(prim.attributes[name])
     if "widths" in prim.attributes:
-        point_attributes["radius"] = exact_values(prim.attributes["widths"]) / np.float32(2)
+        with np.errstate(invalid="ignore"):  # what is not a number is refused with the strands
+            point_attributes["radius"] = exact_values(prim.attributes["widths"]) / np.float32(2)
     return Strands(
         points=exact_values(points),
         offsets=np.concatenate([[0], np.cumsum(lengths, dtype=np.int64)]),
