@@ -30,8 +30,8 @@ impl TileGrid {
     pub fn overlapping(&self, min: [f32; 2], max: [f32; 2]) -> [std::ops::Range<usize>; 2] {
         let range = |low: f32, high: f32, count: usize| {
             let side = TILE as f32;
-            let first = (low / side).floor().max(0.0) as usize;
-            let end = ((high / side).floor() + 1.0).max(0.0) as usize;
+            let first = (low / side).max(0.0) as usize;
+            let end = (high / side + 1.0).max(0.0) as usize;
             first.min(count)..end.min(count)
         };
         [range(min[0], max[0], self.columns), range(min[1], max[1], self.rows)]

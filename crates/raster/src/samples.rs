@@ -16,6 +16,43 @@ pub type Lane = [f32; SAMPLES];
 
 const ORDERS: usize = 256;
 
+/// The larger of two numbers that are not NaN: one instruction, which `f32::max` is not.
+#[inline]
+pub(crate) fn larger(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The smaller of two numbers that are not NaN.
+#[inline]
+pub(crate) fn smaller(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// All bits set, or none.
+#[inline]
+pub(crate) fn word(condition: bool) -> u32 {
+    u32::from(condition).wrapping_neg()
+}
+
+/// Puts depth and primitive into the samples that are hit, where the word is all ones.
+#[inline]
+pub(crate) fn take(hits: &[u32; SAMPLES], nearer: &Lane, index: u32, depth: &mut Lane, primitive: &mut [u32; SAMPLES]) {
+    for i in 0..SAMPLES {
+        depth[i] = f32::from_bits((nearer[i].to_bits() & hits[i]) | (depth[i].to_bits() & !hits[i]));
+        primitive[i] = (index & hits[i]) | (primitive[i] & !hits[i]);
+    }
+}
+
+/// The largest value of the samples.
+#[inline]
+pub(crate) fn largest(lane: &Lane) -> f32 {
+    let mut most: [f32; 4] = std::array::from_fn(|i| larger(lane[i], lane[i + 4]));
+    for i in 0..4 {
+        most[i] = larger(most[i], larger(lane[i + 8], lane[i + 12]));
+    }
+    larger(larger(most[0], most[1]), larger(most[2], most[3]))
+}
+
 /// Positions within the pixel, multiples of 1/32: exact in floating point.
 pub struct Pattern {
     /// To the right.

@@ -5,7 +5,7 @@
 //! counted twice where segments meet. At turns of more than a right angle the band ends bluntly.
 
 use crate::bins::TILE;
-use crate::samples::{Lane, OpacityOrders, Pattern, SAMPLES};
+use crate::samples::{Lane, OpacityOrders, Pattern, SAMPLES, larger, largest, smaller, take, word};
 use crate::strand_points::StrandPoint;
 use crate::tile::Tile;
 
@@ -80,7 +80,7 @@ impl<'a> Segment<'a> {
                 let corner = [(tile.origin[0] + column) as f32 - self.a.x, (tile.origin[1] + row) as f32 - self.a.y];
                 let thresholds = orders.of(self.a.row);
                 lanes.cover(self, corner, thresholds, index, &mut tile.depth[pixel], &mut tile.primitive[pixel]);
-                tile.farthest[pixel] = tile.depth[pixel].iter().copied().fold(f32::NEG_INFINITY, f32::max);
+                tile.farthest[pixel] = largest(&tile.depth[pixel]);
             }
         }
     }
@@ -134,16 +134,19 @@ impl SampleForms {
         let width_slope = b.half_width - a.half_width;
         let depth_slope = b.depth - a.depth;
         let opacity_slope = b.opacity - a.opacity;
+        // Masks of whole words instead of booleans: without branches, the loops become vector instructions.
+        let mut nearer: Lane = [0.0; SAMPLES];
+        let mut hits = [0u32; SAMPLES];
         for i in 0..SAMPLES {
-            let t = ((along + self.along[i]) * per_px).clamp(0.0, 1.0);
+            let t = smaller(larger((along + self.along[i]) * per_px, 0.0), 1.0);
             let z = a.depth + t * depth_slope;
-            let hit = ((across + self.across[i]).abs() <= a.half_width + t * width_slope)
-                & (after_start + self.after_start[i] >= 0.0)
-                & (after_end + self.after_end[i] < 0.0)
-                & (a.opacity + t * opacity_slope > thresholds[i])
-                & (z < depth[i]);
-            depth[i] = if hit { z } else { depth[i] };
-            primitive[i] = if hit { index } else { primitive[i] };
+            nearer[i] = z;
+            hits[i] = word((across + self.across[i]).abs() <= a.half_width + t * width_slope)
+                & word(after_start + self.after_start[i] >= 0.0)
+                & word(after_end + self.after_end[i] < 0.0)
+                & word(a.opacity + t * opacity_slope > thresholds[i])
+                & word(z < depth[i]);
         }
+        take(&hits, &nearer, index, depth, primitive);
     }
 }

@@ -34,7 +34,7 @@ impl StrandPoint {
 
 /// Position on the grid.
 pub(crate) fn snapped(value: f32) -> f32 {
-    (value * GRID).round() / GRID
+    ((value * GRID + 0.5_f32.copysign(value)) as i64) as f32 / GRID
 }
 
 /// All points, in parallel over strands.

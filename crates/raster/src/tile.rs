@@ -1,7 +1,7 @@
 //! The samples of one tile.
 
 use crate::bins::TILE;
-use crate::samples::{Lane, SAMPLES};
+use crate::samples::{Lane, SAMPLES, larger, largest};
 
 /// No primitive.
 pub(crate) const EMPTY: u32 = u32::MAX;
@@ -16,7 +16,7 @@ pub(crate) struct Tile {
     pub size: [i32; 2],
     pub depth: Vec<Lane>,
     pub primitive: Vec<[u32; SAMPLES]>,
-    /// Depth behind which a pixel is closed.
+    /// Depth behind which a pixel is closed; outside the picture, everything is.
     pub farthest: Vec<f32>,
 }
 
@@ -39,20 +39,23 @@ impl Tile {
         self.size = [TILE.min(width - x) as i32, TILE.min(height - y) as i32];
         self.depth.fill([f32::INFINITY; SAMPLES]);
         self.primitive.fill([EMPTY; SAMPLES]);
-        self.farthest.fill(f32::INFINITY);
+        self.farthest.fill(f32::NEG_INFINITY);
+        for row in self.farthest.chunks_exact_mut(TILE).take(self.size[1] as usize) {
+            row[..self.size[0] as usize].fill(f32::INFINITY);
+        }
     }
 
     /// Depth behind which the whole tile is closed.
     pub fn farthest_of_all(&self) -> f32 {
-        let row = |y: usize| &self.farthest[y * TILE..y * TILE + self.size[0] as usize];
-        (0..self.size[1] as usize).flat_map(row).copied().fold(f32::NEG_INFINITY, f32::max)
+        self.farthest.as_chunks().0.iter().map(largest).fold(f32::NEG_INFINITY, larger)
     }
 
     /// Pixel columns (or rows, `axis` 1) of the tile, relative to its origin, that overlap an interval of the picture.
     pub fn clip(&self, axis: usize, low: f32, high: f32) -> std::ops::Range<i32> {
         let origin = self.origin[axis] as f32;
-        let first = (low - origin).floor().max(0.0) as i32;
-        let end = ((high - origin).floor() + 1.0).clamp(0.0, self.size[axis] as f32) as i32;
-        first..end
+        // Truncation is the floor of what is not negative, and needs no call.
+        let first = larger(low - origin, 0.0) as i32;
+        let end = larger(high - origin + 1.0, 0.0) as i32;
+        first..end.min(self.size[axis])
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::ProjectedVertex;
 use crate::bins::TILE;
-use crate::samples::{Lane, Pattern, SAMPLES};
+use crate::samples::{Lane, Pattern, SAMPLES, larger, largest, take, word};
 use crate::strand_points::snapped;
 use crate::tile::{TRIANGLE_BIT, Tile};
 
@@ -82,7 +82,7 @@ impl Triangle {
                 }
                 let (depth, primitive) = (&mut tile.depth[pixel], &mut tile.primitive[pixel]);
                 self.cover(corner, &forms, &depths, index | TRIANGLE_BIT, depth, primitive);
-                tile.farthest[pixel] = tile.depth[pixel].iter().copied().fold(f32::NEG_INFINITY, f32::max);
+                tile.farthest[pixel] = largest(&tile.depth[pixel]);
             }
         }
     }
@@ -107,18 +107,20 @@ impl Triangle {
         primitive: &mut [u32; SAMPLES],
     ) {
         let [e0, e1, e2] = self.edges.map(|e| e.value(corner));
-        let [p0, p1, p2] = self.edges.map(|e| e.positive);
+        let [p0, p1, p2] = self.edges.map(|e| word(!e.positive));
         let (rx, ry) = (corner[0] - self.corners[0][0], corner[1] - self.corners[0][1]);
         let z0 = self.depth_at_first + self.gradient[0] * rx + self.gradient[1] * ry;
+        let mut nearer: Lane = [0.0; SAMPLES];
+        let mut hits = [0u32; SAMPLES];
         for i in 0..SAMPLES {
-            let z = (z0 + depths[i]).max(self.nearest);
-            let hit = ((e0 + forms[0][i] >= 0.0) == p0)
-                & ((e1 + forms[1][i] >= 0.0) == p1)
-                & ((e2 + forms[2][i] >= 0.0) == p2)
-                & (z < depth[i]);
-            depth[i] = if hit { z } else { depth[i] };
-            primitive[i] = if hit { index } else { primitive[i] };
+            let z = larger(z0 + depths[i], self.nearest);
+            nearer[i] = z;
+            hits[i] = (word(e0 + forms[0][i] >= 0.0) ^ p0)
+                & (word(e1 + forms[1][i] >= 0.0) ^ p1)
+                & (word(e2 + forms[2][i] >= 0.0) ^ p2)
+                & word(z < depth[i]);
         }
+        take(&hits, &nearer, index, depth, primitive);
     }
 }
 
