@@ -34,7 +34,7 @@ _LOUDEST = 4.0
 class DenseParams(Params):
     """Settings of `dense_orientation`."""
 
-    gabor_weight: float = param(1.0, low=0.0, high=10.0, doc="Weight of the Gabor bank's orientation.")
+    gabor_weight: float = param(2.0, low=0.0, high=10.0, doc="Weight of the Gabor bank's orientation.")
     gradient_weight: float = param(1.0, low=0.0, high=10.0, doc="Weight of the structure tensor.")
     contrast_px: float = param(12.0, low=2.0, high=200.0, unit="px", doc="Width over which contrast is evened out.")
     significance: float = param(
@@ -83,9 +83,12 @@ def dense_orientation(
 
 
 def _gabor(bright: Array, inside: Array) -> Array:
-    """(H, W, 3): doubled angle times weight, and weight, of the bank's first answer."""
+    """(H, W, 3): doubled angle times weight, and weight, of the bank's first answer.
+
+    The map's margin around the mask is kept: along most of its outline hair runs parallel to it.
+    """
     found = orientation_map(bright, mask=inside, params=OrientParams(rounds=0))
-    weight = np.where(inside, found.confidence**2, 0)
+    weight = found.confidence**2
     twice = 2 * np.nan_to_num(found.angle)
     return np.dstack([np.cos(twice) * weight, np.sin(twice) * weight, weight]).astype(np.float32)
 
