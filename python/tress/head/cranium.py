@@ -76,14 +76,16 @@ class MaskDistance:
         return np.stack([map_coordinates(layer, [row, column], order=1, mode="nearest") for layer in self.layers])
 
 
-def mask_distance(mask: NDArray, *, px_per_metre: float) -> MaskDistance:
-    """Of a person mask (H, W) in [0, 1], about 2 mm a cell on the head."""
+def mask_distance(mask: NDArray, *, px_per_metre: float) -> MaskDistance | None:
+    """Of a person mask (H, W) in [0, 1], about 2 mm a cell on the head; None where it has no edge."""
     height, width = mask.shape
     cell = max(1.0, px_per_metre * CELL_M)
     size = (max(2, round(width / cell)), max(2, round(height / cell)))
     small = cv2.resize(np.asarray(mask, np.float32), size, interpolation=cv2.INTER_AREA)
     pad = max(size) // 2
     person = np.pad(small > 0.5, pad, mode="edge").astype(np.uint8)
+    if person.min() == person.max():
+        return None
     distance = cv2.distanceTransform(person, cv2.DIST_L2, 5) - cv2.distanceTransform(1 - person, cv2.DIST_L2, 5)
     distance = cv2.GaussianBlur(np.asarray(distance, np.float32), (0, 0), 1.0)
     cells = np.array([width / size[0], height / size[1]])

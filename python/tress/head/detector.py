@@ -6,6 +6,7 @@ it; `find_faces` looks again in overlapping parts of the picture, and in a wider
 Source: Bazarevsky et al. 2019, BlazeFace.
 """
 
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import cv2
@@ -86,20 +87,36 @@ def intersection_over_union(one: NDArray[np.float64], many: NDArray[np.float64])
     return shared / np.maximum(total, 1e-12)
 
 
-def find_faces(image: NDArray[np.uint8], *, detector: FaceDetector) -> list[FaceBox]:
-    """All faces of `image` (H, W, 3) uint8 sRGB: in the whole, else in a wider frame, else in halves, else in quarters.
+def find_faces(
+    image: NDArray[np.uint8],
+    *,
+    detector: FaceDetector,
+    count: int = 1,
+    confirmed: Callable[[FaceBox], bool] | None = None,
+) -> list[FaceBox]:
+    """The faces of `image` (H, W, 3) uint8 sRGB: in the whole, then in a wider frame, in halves and in quarters, until
+    there are `count` of them.
 
-    Cost: one detection where the whole picture shows a face, at most 60 where there is none.
+    `confirmed` has the last word on each: small parts of a picture often look like faces to the detector alone.
+    Cost: one detection where the whole picture shows enough faces, at most 60.
     """
-    height, width = image.shape[:2]
+    found: list[FaceBox] = []
+    for crops in _looks(*image.shape[:2]):
+        fresh = _without_doubles([*found, *_detect_in(image, crops, detector)])[len(found) :]
+        found += [face for face in fresh if confirmed is None or confirmed(face)]
+        if len(found) >= count:
+            break
+    return found
+
+
+def _looks(height: int, width: int) -> Iterator[list[Crop]]:
     longer = float(max(height, width))
-    faces = detector.detect(image)
-    if not faces:
-        faces = _detect_in(image, [Crop((width / 2, height / 2), 1.7 * longer, 0.0)], detector)
+    middle = (width / 2, height / 2)
+    yield [Crop(middle, longer, 0.0)]
+    yield [Crop(middle, 1.7 * longer, 0.0)]
     for part in (0.5, 0.25):
-        if not faces:
-            faces = _detect_in(image, list(_tiles(height, width, size=max(part * longer, SIDE))), detector)
-    return faces
+        if part * longer >= SIDE / 2:
+            yield _tiles(height, width, size=part * longer)
 
 
 def _tiles(height: int, width: int, *, size: float) -> list[Crop]:
@@ -117,13 +134,14 @@ def _detect_in(image: NDArray[np.uint8], crops: list[Crop], detector: FaceDetect
     for crop in crops:
         side = round(min(crop.size, 4 * SIDE))
         found += [_moved(face, crop, side) for face in detector.detect(crop.pixels(image, side=side))]
-    return _without_doubles(found)
+    return sorted(found, key=lambda face: -face.score)
 
 
 def _without_doubles(faces: list[FaceBox]) -> list[FaceBox]:
+    """`faces` without those that lie on an earlier one."""
     kept: list[FaceBox] = []
-    for face in sorted(faces, key=lambda face: -face.score):
-        if all(np.linalg.norm(face.center - other.center) > 0.5 * other.size for other in kept):
+    for face in faces:
+        if all(np.linalg.norm(face.center - other.center) > 0.5 * max(face.size, other.size) for other in kept):
             kept.append(face)
     return kept
 

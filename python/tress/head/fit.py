@@ -167,6 +167,8 @@ class _ShapeSolver:
     def keep_inside(self, mask: NDArray) -> None:
         """Pulls the cranium into the mask and solves again, a few times."""
         edge = mask_distance(mask, px_per_metre=self._pose.scale)
+        if edge is None:
+            return
         for _ in range(self._params.mask_rounds):
             vertices, rows, distance = inward_pull(
                 self._positions(), self._pose, edge, head=self._head, margin=self._params.mask_margin

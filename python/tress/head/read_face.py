@@ -55,8 +55,9 @@ def read_face(
     """The landmarks of one face of `image` (H, W, 3) uint8 sRGB.
 
     Several faces are ranked by size and closeness to the picture's middle; the first is taken and a warning reported,
-    `face` names another, counted from 0. `landmarks` given by hand replace detection: all 468 are used as they are; a
-    few named points show the network where to look, and stand in for it with an average face where it sees none.
+    `face` names another, counted from the left from 0. `landmarks` given by hand replace detection: all 468 are used
+    as they are; a few named points show the network where to look, and stand in for it with an average face where it
+    sees none.
 
     Raises `NoFaceError` where there is no face, or it is too small or too much cut off; `InputError` where `face`
     names none.
@@ -81,24 +82,36 @@ def by_prominence(faces: list[FaceBox], *, height: int, width: int) -> list[Face
 
 def _chosen(image: NDArray[np.uint8], face: int | None, reader: FaceReader, report: Report) -> FaceLandmarks:
     height, width = image.shape[:2]
-    faces = by_prominence(find_faces(image, detector=reader.faces), height=height, width=width)
-    if not faces:
+    read: list[tuple[FaceBox, FaceLandmarks]] = []
+
+    def confirmed(box: FaceBox) -> bool:
+        points = locate_landmarks(image, box, model=reader.points)
+        new = points.score >= SURE and not any(_same(points, other) for _, other in read)
+        if new:
+            read.append((box, points))
+        return new
+
+    find_faces(image, detector=reader.faces, count=1 if face is None else face + 1, confirmed=confirmed)
+    if not read:
         raise NoFaceError(
             "No face was found; use a picture with a visible face, or give the eyes by hand with --landmarks."
         )
-    read = [
-        found for found in (locate_landmarks(image, box, model=reader.points) for box in faces) if found.score >= SURE
-    ]
-    if not read:
-        raise NoFaceError("What looked like a face has no readable features; give the eyes by hand with --landmarks.")
-    if face is not None and not 0 <= face < len(read):
-        raise InputError(
-            f"Face {face} was asked for; the picture shows {len(read)}, counted from 0, most prominent first."
-        )
-    if face is None and len(read) > 1:
-        report.warn(f"{len(read)} faces were found and the most prominent was taken; --face 1 takes the next.")
     report.number("faces", len(read))
-    return read[face or 0]
+    from_left = sorted(read, key=lambda pair: float(pair[0].center[0]))
+    if face is not None:
+        if not 0 <= face < len(read):
+            raise InputError(f"Face {face} was asked for; {len(read)} found, counted from the left from 0.")
+        return from_left[face][1]
+    first = by_prominence([box for box, _ in read], height=height, width=width)[0]
+    number = next(k for k, (box, _) in enumerate(from_left) if box is first)
+    if len(read) > 1:
+        report.warn(f"{len(read)} faces were found; number {number} from the left, the most prominent, was taken.")
+    return from_left[number][1]
+
+
+def _same(one: FaceLandmarks, other: FaceLandmarks) -> bool:
+    apart = np.linalg.norm(one.points[:, :2].mean(axis=0) - other.points[:, :2].mean(axis=0))
+    return bool(apart < 0.5 * (other.box[3] - other.box[1]))
 
 
 def _near_hand_points(

@@ -1,0 +1,32 @@
+"""The photograph that the tests of the head share, and heads whose landmarks are known exactly."""
+
+import numpy as np
+import skimage.data
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from tress.head.landmarks import FaceLandmarks, landmarks_of
+from tress.head.pose import Pose
+from tress.head.statistical import StatisticalHead
+
+
+def astronaut() -> NDArray[np.uint8]:
+    """512 x 512, one face, its eyes 43 px apart."""
+    return skimage.data.astronaut()
+
+
+def random_pose(rng: np.random.Generator) -> Pose:
+    """Within 30° of the camera, 1,000 to 3,000 px a metre."""
+    angles = rng.uniform(-1, 1, 3) * np.radians([25, 30, 20])
+    rotation = Rotation.from_euler("xyz", angles).as_matrix()
+    return Pose(rotation, float(rng.uniform(1000, 3000)), np.array([500.0, 450.0, 0.0]))
+
+
+def exact_landmarks(head: StatisticalHead, positions: NDArray[np.float64], pose: Pose) -> FaceLandmarks:
+    """What a perfect network would say, its depth law included."""
+    seen = pose.seen(head.at_landmarks(positions))
+    gain, slope = head.landmark_depth
+    across = seen[[263, 362], :2].mean(axis=0) - seen[[33, 133], :2].mean(axis=0)
+    down = np.array([-across[1], across[0]]) / np.linalg.norm(across)
+    seen[:, 2] = (seen[:, 2] + slope * (seen[:, :2] @ down)) / gain
+    return landmarks_of(seen)
