@@ -1,5 +1,7 @@
 """Views, turntable, video, contact sheet."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from render.small_scene import SIZE, drawn, fringe, wall
@@ -10,8 +12,9 @@ from tress.model.camera import Camera
 from tress.model.evaluate import Scene
 from tress.model.strands import Strands
 from tress.render.flat_scene import flat_scene
-from tress.render.occlusion import light_transmittance, sky_visibility
+from tress.render.occlusion import light_transmittance, prepared, sky_visibility
 from tress.render.preview import contact_sheet
+from tress.render.styles.fibre import FibreStyle
 from tress.render.styles.photo import PhotoStyle
 from tress.render.turntable import TurntableParams, turntable
 from tress.render.video import read_video, write_webm
@@ -125,6 +128,13 @@ def test_the_depths_of_the_hair_are_darker_than_its_outside():
     assert 0 <= light.min() <= light.max() <= 1
     lit = light_transmittance(ball, towards_light=np.array([1.0, 0, 0]))
     assert lit[points[:, 0] > 0.03].mean() > 1.5 * lit[points[:, 0] < -0.03].mean()
+
+
+def test_a_prepared_scene_looks_the_same():
+    fringed = drawn([fringe(count=60)])
+    ready = replace(fringed, scene=prepared(fringed.scene))
+    for style in (PhotoStyle.soft(), FibreStyle()):
+        assert np.array_equal(style.shade(fringed), style.shade(ready))
 
 
 def test_a_video_of_the_turntable(tmp_path):

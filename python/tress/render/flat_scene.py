@@ -23,7 +23,8 @@ class FlatScene:
 
     `points` (N, 3), `offsets` (S + 1,), `color` (N, 3) linear, `alpha` (N,), `radius` (N,) metres: float32 but for the
     offsets, int64. `positions` (V, 3) float32, `triangles` (F, 3) int32 into `positions`. `meshes` are the records, and
-    `first_triangle` (len(meshes) + 1,) tells which triangles are theirs.
+    `first_triangle` (len(meshes) + 1,) tells which triangles are theirs. `tangent` (N, 3) and `sky` (N,) are what
+    styles need and is the same for every view: None until `prepared`.
     """
 
     points: Array
@@ -35,6 +36,8 @@ class FlatScene:
     triangles: Array
     meshes: tuple[Mesh, ...]
     first_triangle: Array
+    tangent: Array | None = None
+    sky: Array | None = None
 
 
 def flat_scene(scene: Scene, *, radius_m: float | None = None) -> FlatScene:
@@ -62,6 +65,8 @@ def flat_scene(scene: Scene, *, radius_m: float | None = None) -> FlatScene:
 
 def tangents(scene: FlatScene) -> Array:
     """(N, 3) float32 unit directions root to tip at every point, by central differences within the strand."""
+    if scene.tangent is not None:
+        return scene.tangent
     points, last = scene.points, scene.offsets[1:] - 1
     index = np.arange(len(points))
     before, after = np.maximum(index - 1, 0), np.minimum(index + 1, max(len(points) - 1, 0))

@@ -1,12 +1,12 @@
 """Light that the hair keeps from itself: the hair as a fog on a grid."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
-from tress.render.flat_scene import FlatScene
+from tress.render.flat_scene import FlatScene, tangents
 
 Array = np.ndarray[Any, Any]
 
@@ -30,8 +30,8 @@ def sky_visibility(scene: FlatScene) -> Array:
     as much from below. The same for every view. Coarse by design (4 mm): it darkens the depths of a hairstyle, not
     single strands. Cost: linear in points and cells.
     """
-    if len(scene.points) == 0:
-        return np.zeros(0, np.float32)
+    if scene.sky is not None or len(scene.points) == 0:
+        return np.zeros(0, np.float32) if scene.sky is None else scene.sky
     fog = _fog(scene.points, scene.offsets)
     total = np.zeros_like(fog.absorption)
     for axis in range(3):
@@ -40,6 +40,11 @@ def sky_visibility(scene: FlatScene) -> Array:
         from_low, from_high = (0.25, 1.0) if axis == 1 else (0.25, 0.25)
         total += from_low * np.exp(-before) + from_high * np.exp(-after)
     return (total / 2.25).reshape(-1)[fog.cell_of_point].astype(np.float32)
+
+
+def prepared(scene: FlatScene) -> FlatScene:
+    """The scene with all that is the same for every view: worth it where more than one picture is made of it."""
+    return replace(scene, tangent=tangents(scene), sky=sky_visibility(scene))
 
 
 def light_transmittance(scene: FlatScene, *, towards_light: Array) -> Array:

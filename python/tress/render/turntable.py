@@ -10,6 +10,7 @@ from tress.base.params import Params, param
 from tress.base.report import Report
 from tress.render.flat_scene import FlatScene
 from tress.render.gbuffer import rasterise
+from tress.render.occlusion import prepared
 from tress.render.picture import premultiplied_rgba, srgb_rgb
 from tress.render.style import Style
 from tress.render.views import framed, pivot, turned
@@ -38,6 +39,7 @@ def turntable(
     Frames are made when they are asked for. Raises `InputError` for an empty scene.
     """
     settings = params or TurntableParams()
+    scene = prepared(scene)
     camera = framed(scene, width=settings.width, height=settings.height)
     centre = pivot(scene)
     for i in range(settings.frames):

@@ -25,9 +25,9 @@ class FibreStyle(Params):
 
     azimuth_rad: float = param(0.6, low=-np.pi, high=np.pi, unit="rad", doc="Light to the right of the camera.")
     elevation_rad: float = param(0.7, low=-1.5, high=1.5, unit="rad", doc="Light above the camera.")
-    light: float = param(4.0, low=0, high=100, doc="Irradiance; 4 shows hair about as bright as its colour.")
-    sky: float = param(0.45, low=0, high=10, doc="Light from all around, as a multiple of the hair's colour.")
-    roughness_rad: float = param(0.12, low=0.02, high=0.6, unit="rad", doc="Width of the highlight along the hair.")
+    light: float = param(5.5, low=0, high=100, doc="Irradiance; the default shows hair about as bright as its colour.")
+    sky: float = param(0.7, low=0, high=10, doc="Light from all around, as a multiple of the hair's colour.")
+    roughness_rad: float = param(0.1, low=0.02, high=0.6, unit="rad", doc="Width of the highlight along the hair.")
     tilt_rad: float = param(0.05, low=0.0, high=0.2, unit="rad", doc="Tilt of the cuticle, which moves the highlights.")
 
     def shade(self, gbuffer: GBuffer) -> Array:

@@ -33,7 +33,7 @@ class PhotoStyle(Params):
     @classmethod
     def soft(cls) -> "PhotoStyle":
         """Settings for views that the photograph does not show."""
-        return cls(occlusion=0.6, relief=0.45, variation=0.2, sheen=0.25)
+        return cls(occlusion=0.65, relief=0.45, variation=0.2, sheen=0.35)
 
     def shade(self, gbuffer: GBuffer) -> Array:
         """Linear colours (F, 4) float32, straight, of all fragments."""
