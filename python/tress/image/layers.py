@@ -180,11 +180,12 @@ def _with_reach(
     prior: NDArray[np.float64],
     params: LayerParams,
 ) -> NDArray[np.float64]:
-    """Costs (N, 4) with what it takes to get to a patch from the hair's seeds added to the cost of hair."""
+    """Costs (N, 4) in which hair is dearer the harder it is to get there from the hair's seeds, walking over what is
+    likely hair, and clothes are dearer where it is easy: long hair goes on downwards."""
     behind = cost[:, HAIR] - cost[:, [BACKGROUND, BODY, FACE]].min(axis=1)
     toll = np.maximum(behind, 0)
     start = (seeds > 0.3 * seeds.max()) & (behind < 0)
-    way = reach(toll, edges=patches.edges, start=start | (stroke == HAIR)) - toll
+    way = np.minimum(reach(toll, edges=patches.edges, start=start | (stroke == HAIR)) - toll, _NEVER)
     cost = cost.copy()
     cost[:, HAIR] += np.minimum(params.reach_weight * way, params.most_reach)
     cost[:, BODY] += params.reach_bonus * (way < 1) * (prior[:, HAIR] > 0.1) * (1 - np.minimum(way, 1))

@@ -23,8 +23,8 @@ class Superpixels:
 
     `label` (h, w) int32: the patch of every pixel. `area` (N,) pixels. `center` (N, 2) float32 (x, y) in working
     pixels. `lab` (N, 3) float32: mean CIE Lab. `texture` (N,) float32: logarithm of the mean fine contrast in L.
-    `edges` (E, 2) int32: neighbours, each pair once, first < second. `border` (E,) float32: length of their common
-    border, pixels.
+    `grain` (N,) float32 in [0, 1]: how much the fine edges run the same way. `edges` (E, 2) int32: neighbours, each
+    pair once, first < second. `border` (E,) float32: length of their common border, pixels.
     """
 
     label: NDArray[np.int32]
@@ -86,7 +86,7 @@ def _grain(lightness: NDArray[np.float32]) -> NDArray[np.float32]:
     down = cv2.Sobel(lightness, cv2.CV_32F, 0, 1)
     tensor = cv2.GaussianBlur(np.dstack([across * across, down * down, across * down]), (0, 0), 4.0)
     along = np.hypot(tensor[..., 0] - tensor[..., 1], 2 * tensor[..., 2])
-    return along / (tensor[..., 0] + tensor[..., 1] + _FLAT_ENERGY)
+    return np.asarray(along / (tensor[..., 0] + tensor[..., 1] + _FLAT_ENERGY), np.float32)
 
 
 def _centers(label: NDArray[np.int32], area: NDArray[np.float32]) -> NDArray[np.float32]:

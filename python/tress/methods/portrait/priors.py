@@ -114,7 +114,7 @@ def _zones(landmarks: FaceLandmarks, frame: FaceFrame, size: tuple[int, int], sc
     )
 
 
-def _ears(place: NDArray[np.float64], frame: FaceFrame) -> NDArray[np.float64]:
+def _ears(place: NDArray[np.floating], frame: FaceFrame) -> NDArray[np.float64]:
     """1 on the two ears, 0 far from them."""
     bumps = [
         np.exp(-((((place - ear) / (_EAR_RADIUS * frame.height_px)) ** 2).sum(axis=-1) ** 2)) for ear in frame.ears
