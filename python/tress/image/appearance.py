@@ -14,10 +14,12 @@ _TEXTURE_SCALE: Final = 12.0
 """Steps of Lab that a doubling-and-a-half (factor e) of the fine contrast counts as."""
 _GRAIN_SCALE: Final = 15.0
 _FLOOR: Final = np.array([3.0, 2.0, 2.0, 3.0, 3.0]) ** 2
-"""Variance that no mixture component falls below: L, a, b, scaled texture."""
+"""Variance that no mixture component falls below: L, a, b, scaled texture and grain."""
 _COMPONENTS: Final = {BACKGROUND: 5, BODY: 5, FACE: 3, HAIR: 4}
 _OUTLIERS: Final = 0.02
 """Share of a layer that looks like anything in the photograph."""
+_STROKED: Final = 0.35
+"""Share of a layer that looks like its strokes."""
 _BARE_SKIN: Final = 0.15
 """Share of the body that looks like the face: neck, shoulders, hands."""
 _SHADES: Final = ((0.85, 0.2), (0.7, 0.12))
@@ -33,29 +35,47 @@ class Appearance:
 
 
 def features(patches: Superpixels) -> NDArray[np.float64]:
-    """(N, 4) float64 of every superpixel: L, a, b and the fine texture in steps of like size."""
+    """(N, 5) float64 of every superpixel: L, a, b, fine texture and grain, in steps of like size."""
     fine = [_TEXTURE_SCALE * patches.texture, _GRAIN_SCALE * patches.grain]
     return np.column_stack([patches.lab, *fine]).astype(np.float64)
 
 
-def learnt_appearance(samples: NDArray[np.float64], *, weights: NDArray[np.float64]) -> Appearance:
-    """Mixtures of all layers from `samples` (N, 4) with `weights` (N, 4 layers) >= 0."""
+def learnt_appearance(
+    samples: NDArray[np.float64], *, weights: NDArray[np.float64], strokes: NDArray[np.uint8]
+) -> Appearance:
+    """Mixtures of all layers from `samples` (N, 5) with `weights` (N, 4 layers) >= 0.
+
+    What the user stroked (`strokes` (N,): a label, or any other value) makes up a fixed share of its layer, however
+    little it is: it is what the photograph alone got wrong.
+    """
     anything = fitted_mixture(samples, weights=weights.sum(axis=1), count=1, floor=_FLOOR, iterations=0)
     learnt = [
         fitted_mixture(samples, weights=weights[:, layer], count=_COMPONENTS[layer], floor=_FLOOR)
         for layer in range(LAYER_COUNT)
     ]
+    for layer in range(LAYER_COUNT):
+        if (strokes == layer).any():
+            shown = fitted_mixture(samples, weights=strokes == layer, count=2, floor=_FLOOR)
+            learnt[layer] = _joined(learnt[layer], shown, share=_STROKED)
     for layer in (FACE, HAIR):
         learnt[layer] = _with_shades(learnt[layer])
     return Appearance(tuple(learnt), anything)
 
 
 def log_likelihood(appearance: Appearance, samples: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Natural logarithm (N, 4 layers) of how likely every layer is to look like `samples` (N, 4)."""
+    """Natural logarithm (N, 4 layers) of how likely every layer is to look like `samples` (N, 5)."""
     logs = np.column_stack([log_density(mixture, samples) for mixture in appearance.mixtures])
     logs[:, BODY] = np.logaddexp(np.log(1 - _BARE_SKIN) + logs[:, BODY], np.log(_BARE_SKIN) + logs[:, FACE])
     anything = log_density(appearance.anything, samples)
     return np.logaddexp(np.log(1 - _OUTLIERS) + logs, np.log(_OUTLIERS) + anything[:, None])
+
+
+def _joined(first: Mixture, second: Mixture, *, share: float) -> Mixture:
+    return Mixture(
+        np.concatenate([(1 - share) * first.weight, share * second.weight]),
+        np.concatenate([first.mean, second.mean]),
+        np.concatenate([first.covariance, second.covariance]),
+    )
 
 
 def _with_shades(lit: Mixture) -> Mixture:

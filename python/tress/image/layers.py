@@ -32,7 +32,6 @@ from tress.image.superpixels import Superpixels, mean_over, superpixels
 
 _NEVER = 1e5
 _LEAST_PRIOR = 1e-4
-_STROKE_WEIGHT = 10.0
 
 
 @dataclass(frozen=True)
@@ -138,7 +137,7 @@ def _cut_layers(
     roots = weights[:, HAIR].copy()
     cost = -np.log(prior)
     for number in range(params.rounds):
-        look = log_likelihood(learnt_appearance(samples, weights=weights), samples)
+        look = log_likelihood(learnt_appearance(samples, weights=weights, strokes=stroke), samples)
         cost = _costs(look, prior, stroke, params)
         cost = _with_reach(cost, roots, stroke, patches, prior, params)
         label = _cut_in_steps(cost, patches.edges, border, final=number == params.rounds - 1)
@@ -152,9 +151,9 @@ def _first_weights(
     """Seeds of the layers: the places where the prior is surest, less what looks like another layer's surer seeds."""
     seeds = patches.area[:, None].astype(np.float64) * np.maximum(prior - 0.4, 0) ** 2
     seeds = _with_strokes(seeds, stroke, patches)
-    look = log_likelihood(learnt_appearance(samples, weights=seeds), samples)
+    look = log_likelihood(learnt_appearance(samples, weights=seeds, strokes=stroke), samples)
     seeds[:, HAIR] *= _share(look, HAIR, (FACE, BACKGROUND))
-    look = log_likelihood(learnt_appearance(samples, weights=seeds), samples)
+    look = log_likelihood(learnt_appearance(samples, weights=seeds, strokes=stroke), samples)
     seeds[:, BODY] *= _share(look, BODY, (FACE, BACKGROUND)) * np.maximum(1 - _likeness(samples, look[:, HAIR]), 0.02)
     return _with_strokes(seeds, stroke, patches)
 
@@ -196,7 +195,7 @@ def _with_reach(
 def _with_strokes(weights: NDArray[np.float64], stroke: NDArray[np.uint8], patches: Superpixels) -> NDArray[np.float64]:
     drawn = stroke != NO_STROKE
     weights[drawn] = 0
-    weights[drawn, stroke[drawn]] = _STROKE_WEIGHT * patches.area[drawn]
+    weights[drawn, stroke[drawn]] = patches.area[drawn]
     return weights
 
 

@@ -1,7 +1,8 @@
 """The matte of a layer: how much of each pixel is hair, and what colours were mixed there.
 
-A trimap from the cut (shrunk and grown, as Chai et al. 2012), closed-form alpha on coded colours, then foreground and
-background in linear light. All is done in the box around the mask that the trimap leaves open.
+A trimap from the cut (shrunk and grown, as Chai et al. 2012), closed-form alpha and the two colours that it mixes, both
+found on coded colours, whose equal steps look equal; then all three are carried over to linear light. All is done in the
+box around the mask that the trimap leaves open.
 """
 
 from dataclasses import dataclass
@@ -13,7 +14,11 @@ from tress.base.errors import InputError
 from tress.base.params import Params, param
 from tress.image.color import require_photograph, srgb_to_linear
 from tress.image.trimap import trimap_of_mask
-from tress.kernel.matting import TRIMAP_BACKGROUND, closed_form_alpha, unmixed_colors
+from tress.kernel.matting import TRIMAP_BACKGROUND, Unmixed, closed_form_alpha, unmixed_colors
+
+_ALIKE = 1e-3
+"""Squared difference of colours (linear) below which they tell little about alpha."""
+_PROJECTIONS = 3
 
 
 @dataclass(frozen=True)
@@ -86,12 +91,38 @@ def matte_of_mask(
         tolerance=params.tolerance,
         max_iterations=params.max_iterations,
     )
-    alpha[box] = solved.alpha
-    colors = unmixed_colors(
-        linear[box], alpha=solved.alpha, smoothness=params.smoothness, gradient_weight=params.gradient_weight
+    coded = unmixed_colors(
+        image[box].astype(np.float32) / 255,
+        alpha=solved.alpha,
+        smoothness=params.smoothness,
+        gradient_weight=params.gradient_weight,
     )
-    foreground[box], background[box] = colors.foreground, colors.background
+    parts = _in_linear_light(solved.alpha, coded, linear[box])
+    alpha[box], foreground[box], background[box] = parts
     return Matte(alpha, foreground, background, trimap, solved.iterations, solved.converged)
+
+
+def _in_linear_light(
+    alpha: NDArray[np.float32], coded: Unmixed, light: NDArray[np.float32]
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
+    """Alpha, foreground and background whose linear mixture is `light` (h, w, 3).
+
+    Coded colours do not add up, light does: half a dark hair before a bright backdrop is a good deal brighter, coded,
+    than half-way. So alpha is measured again between the two colours, in linear light; where they are nearly the same
+    colour, it stays what it was. Then both colours move the least that makes the mixture exact, as far as [0, 1] lets.
+    """
+    foreground, background = srgb_to_linear(coded.foreground), srgb_to_linear(coded.background)
+    apart = foreground - background
+    measured = ((light - background) * apart).sum(axis=-1) + _ALIKE * alpha
+    soft = (alpha > 0) & (alpha < 1)
+    linear_alpha = np.where(soft, np.clip(measured / ((apart**2).sum(axis=-1) + _ALIKE), 0, 1), alpha)
+    front = linear_alpha[..., None].astype(np.float32)
+    scale = 1 / (front**2 + (1 - front) ** 2)
+    for _ in range(_PROJECTIONS):
+        lack = (light - front * foreground - (1 - front) * background) * scale
+        foreground = np.clip(foreground + front * lack, 0, 1).astype(np.float32)
+        background = np.clip(background + (1 - front) * lack, 0, 1).astype(np.float32)
+    return front[..., 0], foreground, background
 
 
 def _box_of(mask: NDArray[np.bool_], *, margin: int) -> tuple[slice, slice]:

@@ -1,0 +1,121 @@
+"""Layers of made pictures: the cut follows colour, the prior decides where colours agree, strokes mend."""
+
+import numpy as np
+import pytest
+
+from tress.base.errors import InputError
+from tress.image.labels import BACKGROUND, BODY, FACE, HAIR
+from tress.image.layers import LayerParams, segment_layers
+from tress.image.strokes import NO_STROKE
+
+SIDE = 160
+PARAMS = LayerParams(work_size=SIDE, superpixels=600)
+BACKDROP, SHIRT, SKIN, BROWN = (200, 210, 220), (40, 60, 160), (225, 175, 150), (70, 45, 30)
+
+
+def portrait(*, shirt: tuple[int, int, int] = SHIRT, seed: int = 5) -> tuple[np.ndarray, np.ndarray]:
+    """A cartoon head (H, W, 3) with noise, and its true labels: hair above and beside the face, a shirt below."""
+    rows, columns = np.indices((SIDE, SIDE)) / SIDE
+    truth = np.full((SIDE, SIDE), BACKGROUND, np.uint8)
+    truth[(rows > 0.78) & (np.abs(columns - 0.5) < 0.38)] = BODY
+    truth[((columns - 0.5) / 0.26) ** 2 + ((rows - 0.42) / 0.33) ** 2 < 1] = HAIR
+    truth[((columns - 0.5) / 0.17) ** 2 + ((rows - 0.5) / 0.24) ** 2 < 1] = FACE
+    truth[(rows > 0.7) & (rows < 0.8) & (np.abs(columns - 0.5) < 0.1)] = FACE
+    colors = np.array([BACKDROP, shirt, SKIN, BROWN], float)[truth]
+    noise = np.random.default_rng(seed).normal(0, 6, colors.shape)
+    return np.clip(colors + noise, 0, 255).astype(np.uint8), truth
+
+
+def vague_prior() -> np.ndarray:
+    """Knows the middle of every layer and little between."""
+    rows, columns = np.indices((SIDE, SIDE)) / SIDE
+    away = np.hypot((columns - 0.5) / 0.3, (rows - 0.42) / 0.38)
+    prior = np.full((SIDE, SIDE, 4), 0.15, np.float32)
+    prior[..., BACKGROUND] += 3 * (away > 1.2) * (rows < 0.75)
+    prior[..., FACE] += 2 * np.exp(-(((columns - 0.5) / 0.12) ** 2) - ((rows - 0.52) / 0.17) ** 2)
+    prior[..., HAIR] += 2 * np.exp(-(((columns - 0.5) / 0.15) ** 2) - ((rows - 0.16) / 0.08) ** 2)
+    prior[..., BODY] += 3 * (rows > 0.85) * (np.abs(columns - 0.5) < 0.3)
+    return prior
+
+
+def agreement(label: np.ndarray, truth: np.ndarray, layer: int) -> float:
+    return ((label == layer) & (truth == layer)).sum() / ((label == layer) | (truth == layer)).sum()
+
+
+def test_a_cartoon_head_comes_apart() -> None:
+    image, truth = portrait()
+    layers = segment_layers(image, prior=vague_prior(), params=PARAMS)
+    for layer in (BACKGROUND, BODY, FACE, HAIR):
+        assert agreement(layers.label, truth, layer) > 0.85, layer
+    assert layers.probability.sum(axis=-1) == pytest.approx(1, abs=1e-5)
+    assert layers.probability.dtype == np.float32 and layers.superpixels.shape == image.shape[:2]
+    assert np.array_equal(layers.label, layers.probability.argmax(axis=-1))
+
+
+def test_a_shirt_of_the_hair_s_colour_stays_a_shirt() -> None:
+    image, truth = portrait(shirt=BROWN)
+    layers = segment_layers(image, prior=vague_prior(), params=PARAMS)
+    below = np.indices(truth.shape)[0] > 0.85 * SIDE
+    assert (layers.hair_mask & below).sum() < 0.05 * (truth == BODY).sum()
+
+
+def test_strokes_mend_a_wrong_cut() -> None:
+    image, truth = portrait()
+    lock = np.zeros_like(truth, bool)
+    lock[60:125, 118:134] = True
+    image[lock] = np.clip(
+        np.random.default_rng(1).normal(BACKDROP, 6, (lock.sum(), 3)) - 25, 0, 255
+    )  # grey hair before a grey backdrop
+    truth[lock] = HAIR
+    before = segment_layers(image, prior=vague_prior(), params=PARAMS)
+    strokes = np.full(truth.shape, NO_STROKE, np.uint8)
+    strokes[64:121, 124:128] = HAIR
+    after = segment_layers(image, prior=vague_prior(), strokes=strokes, params=PARAMS)
+    assert (before.label[lock] == HAIR).mean() < 0.3, "without a stroke the lock is lost"
+    assert (after.label[lock] == HAIR).mean() > 0.85, "the stroke brings back all of it, not only itself"
+    assert agreement(after.label, truth, HAIR) > 0.8, "and nothing else turns into hair"
+
+
+def test_every_stroked_pixel_is_what_the_stroke_says() -> None:
+    image, _ = portrait()
+    strokes = np.full(image.shape[:2], NO_STROKE, np.uint8)
+    strokes[80, 40:120] = BODY
+    strokes[10:14, 10:14] = HAIR
+    label = segment_layers(image, prior=vague_prior(), strokes=strokes, params=PARAMS).label
+    drawn = strokes != NO_STROKE
+    assert np.array_equal(label[drawn], strokes[drawn])
+
+
+def test_the_same_input_gives_the_same_bits() -> None:
+    image, _ = portrait()
+    one, two = (segment_layers(image, prior=vague_prior(), params=PARAMS) for _ in range(2))
+    assert np.array_equal(one.probability, two.probability)
+
+
+def test_a_mirrored_photograph_has_mirrored_layers() -> None:
+    image, truth = portrait()
+    straight = segment_layers(image, prior=vague_prior(), params=PARAMS).label
+    turned = segment_layers(
+        np.ascontiguousarray(image[:, ::-1]), prior=np.ascontiguousarray(vague_prior()[:, ::-1]), params=PARAMS
+    ).label[:, ::-1]
+    assert (straight == turned).mean() > 0.97
+
+
+def test_a_picture_of_one_colour_follows_the_prior() -> None:
+    prior = np.full((64, 64, 4), 0.01, np.float32)
+    prior[:32, :, HAIR] = 1
+    prior[32:, :, FACE] = 1
+    layers = segment_layers(np.full((64, 64, 3), 128, np.uint8), prior=prior, params=LayerParams(superpixels=64))
+    assert (layers.label[:24] == HAIR).all() and (layers.label[40:] == FACE).all()
+
+
+def test_wrong_shapes_are_refused() -> None:
+    image, _ = portrait()
+    with pytest.raises(InputError, match="prior"):
+        segment_layers(image, prior=np.ones((4, 4, 4), np.float32))
+    with pytest.raises(InputError, match="image"):
+        segment_layers(image[..., 0], prior=vague_prior())
+    with pytest.raises(InputError, match="strokes"):
+        segment_layers(image, prior=vague_prior(), strokes=np.zeros((3, 3), np.uint8))
+    with pytest.raises(InputError, match="value 7"):
+        segment_layers(image, prior=vague_prior(), strokes=np.full(image.shape[:2], 7, np.uint8))
