@@ -66,7 +66,7 @@ def test_the_turntable_turns_once_and_tells_its_progress():
 
 
 @pytest.mark.parametrize("codec", ["vp8", "vp9"])
-def test_a_video_plays_as_it_was_written(tmp_path, codec):
+def test_a_video_plays_as_it_was_written(tmp_path, codec, capfd):
     frames = [np.full((48, 64, 3), (200, 40 + 10 * i, 90), np.uint8) for i in range(7)]
     assert write_webm(tmp_path / "turn.webm", frames=frames, frames_per_sec=25, codec=codec) == 7
     found, rate = read_video(tmp_path / "turn.webm")
@@ -74,6 +74,7 @@ def test_a_video_plays_as_it_was_written(tmp_path, codec):
     assert rate == pytest.approx(25)
     assert np.abs(found.astype(int) - np.stack(frames)).max() <= 8, "colours, red and blue not swapped"
     assert [path.name for path in tmp_path.iterdir()] == ["turn.webm"]
+    assert capfd.readouterr() == ("", ""), "libraries do not print"
 
 
 def test_a_failed_video_leaves_the_old_one(tmp_path):

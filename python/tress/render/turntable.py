@@ -25,9 +25,9 @@ BACKDROP = np.array([0.50, 0.50, 0.51], np.float32)
 class TurntableParams(Params):
     """Size and number of the frames."""
 
-    frames: int = param(48, low=1, high=2000, doc="Frames of one turn.")
-    width: int = param(480, low=16, high=4096, unit="px", doc="Width of a frame; even, for the video.")
-    height: int = param(600, low=16, high=4096, unit="px", doc="Height of a frame; even, for the video.")
+    frames: int = param(36, low=1, high=2000, doc="Frames of one turn.")
+    width: int = param(400, low=16, high=4096, unit="px", doc="Width of a frame; even, for the video.")
+    height: int = param(500, low=16, high=4096, unit="px", doc="Height of a frame; even, for the video.")
     min_width_px: float = param(1.0, low=0.1, high=8, unit="px", doc="Least width of a strand.")
 
 

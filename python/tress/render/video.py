@@ -2,7 +2,8 @@
 
 import os
 import secrets
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
@@ -17,7 +18,7 @@ CODECS: Final = {"vp8": "VP80", "vp9": "VP90"}
 """VP8 takes a quarter of the time of VP9, for files a third larger; every browser plays both."""
 
 
-def write_webm(path: Path, *, frames: Iterable[Array], frames_per_sec: float = 24.0, codec: str = "vp8") -> int:
+def write_webm(path: Path, *, frames: Iterable[Array], frames_per_sec: float = 18.0, codec: str = "vp8") -> int:
     """Writes frames (H, W, 3) uint8 sRGB as WebM and returns their number.
 
     The file appears whole or not at all. Width and height must be even, as the codecs want it. Raises `InputError` for
@@ -81,7 +82,22 @@ def _checked_shape(frame: Array) -> tuple[int, int, int]:
 def _writer(path: Path, shape: tuple[int, int, int], frames_per_sec: float, codec: str) -> cv2.VideoWriter:
     path.touch()  # raises the OSError that OpenCV would swallow
     fourcc = cv2.VideoWriter.fourcc(*CODECS[codec])
-    writer = cv2.VideoWriter(str(path), cv2.CAP_FFMPEG, fourcc, frames_per_sec, (shape[1], shape[0]))
+    with _silent_stderr():
+        writer = cv2.VideoWriter(str(path), cv2.CAP_FFMPEG, fourcc, frames_per_sec, (shape[1], shape[0]))
     if not writer.isOpened():
         raise OSError(f"OpenCV's FFmpeg offers no {codec} encoder")
     return writer
+
+
+@contextmanager
+def _silent_stderr() -> Iterator[None]:
+    """Keeps OpenCV from printing, past Python and its own log level, that WebM has no four-letter tags."""
+    kept = os.dup(2)
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nowhere, 2)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(nowhere)
