@@ -1,8 +1,8 @@
 """The matte of a layer: how much of each pixel is hair, and what colours were mixed there.
 
 A trimap from the cut (shrunk and grown, as Chai et al. 2012), closed-form alpha and the two colours that it mixes, both
-found on coded colours, whose equal steps look equal; then all three are carried over to linear light. All is done in the
-box around the mask that the trimap leaves open.
+found on coded colours, whose equal steps look equal; then all three are carried over to linear light. All is done in
+the box around the mask that the trimap leaves open.
 """
 
 from dataclasses import dataclass
