@@ -12,7 +12,7 @@ from tress.base.report import Report
 from tress.image.labels import BODY, FACE
 from tress.image.layers import Layers
 from tress.image.matte import Matte
-from tress.image.orient import OrientationMap
+from tress.image.orient import OrientationMap, brightness
 from tress.image.trace import TracedStrands
 from tress.io.stage_cache import StageCache
 from tress.methods.portrait.corrections import Corrections
@@ -165,12 +165,10 @@ def _depth_picture(work: Work) -> NDArray[np.uint8]:
 
 
 def _volume(work: Work, report: Report) -> HairVolume:
-    found: OrientationMap = work["orientation"]
     return volume(
         work["depth"],
         traced=work["trace"],
-        angle=found.angle,
-        confidence=found.confidence,
+        brightness=brightness(work.pixels),
         alpha=work["matte"].alpha,
         head=work["head"].fitted,
         params=work.params.volume,

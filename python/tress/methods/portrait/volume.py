@@ -74,8 +74,7 @@ def volume(
     depths: StrandDepths,
     *,
     traced: Traced,
-    angle: Array,
-    confidence: Array,
+    brightness: Array,
     alpha: Array,
     head: Head,
     params: VolumeParams = VolumeParams(),
@@ -88,7 +87,7 @@ def volume(
     box, solid = surface.box, surface.head
     hair = alpha > params.seen_alpha
     flow = hair_flow(
-        angle, confidence=confidence, hair=hair, crown_px=_crown(head), head_px=_height(head), params=params.flow
+        brightness, alpha=alpha, hair=hair, crown_px=_crown(head), px_per_metre=matrix[0, 0], params=params.flow
     )
     front = _front(depths, traced, matrix)
     inside, depth_m = _filled(surface, front, params)
@@ -119,11 +118,6 @@ def _crown(head: Head) -> Array:
     upright = head.positions_in_view @ head.view_from_head[:3, 1]
     top = head.positions_in_view[int(upright.argmax())]
     return head.xy_from_view[:2, :3] @ top + head.xy_from_view[:2, 3]
-
-
-def _height(head: Head) -> float:
-    """Height of the head in pixels."""
-    return float(np.ptp(head.positions_in_view[:, 1]) * head.xy_from_view[0, 0])
 
 
 def _front(depths: StrandDepths, traced: Traced, xy_from_view: Array) -> Array:
