@@ -74,7 +74,7 @@ def test_unusable_options(tress, rooms, astronaut, options, message):
 
 
 @pytest.mark.parametrize(
-    "arguments", [["portrait"], ["portrait", "a.jpg", "--strands", "0"], ["portrait", "--wat"], ["wat"]]
+    "arguments", [["portrait"], ["portrait", "a.jpg", "--strands", "99"], ["portrait", "--wat"], ["wat"]]
 )
 def test_wrong_usage_is_two(tress, arguments):
     assert tress(*arguments).code == 2

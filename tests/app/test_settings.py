@@ -10,6 +10,13 @@ from tress.base.params import Params, choice, param
 
 
 @dataclass(frozen=True)
+class EndParams(Params):
+    """A group within a stage."""
+
+    taper: float = param(0.5, low=0.0, high=1.0, doc="How much strands taper.")
+
+
+@dataclass(frozen=True)
 class TraceParams(Params):
     """One of every kind."""
 
@@ -17,6 +24,7 @@ class TraceParams(Params):
     health: int = param(5, low=1, high=100, doc="Steps without certainty.")
     style: str = choice("photo", options=("photo", "fibre"), doc="Which style.")
     both_ways: bool = True
+    ends: EndParams = field(default_factory=EndParams)
 
 
 @dataclass(frozen=True)
@@ -32,6 +40,10 @@ def test_assignments_keep_the_type_of_the_default():
     changed = with_settings(MethodParams(seed=3), assignments)
     assert changed == MethodParams(3, TraceParams(step_px=2.0, health=7, style="fibre", both_ways=False))
     assert isinstance(changed.trace.step_px, float)
+
+
+def test_groups_within_a_stage_have_longer_names():
+    assert with_settings(MethodParams(), ["trace.ends.taper=1"]).trace.ends == EndParams(taper=1.0)
 
 
 @pytest.mark.parametrize(
@@ -55,6 +67,6 @@ def test_mistakes_are_named(assignment, message):
 
 def test_tables_show_ranges_units_and_choices():
     rows = {row.name: row for row in settings(MethodParams())}
-    assert list(rows) == ["trace.step_px", "trace.health", "trace.style", "trace.both_ways"]
+    assert list(rows) == ["trace.step_px", "trace.health", "trace.style", "trace.both_ways", "trace.ends.taper"]
     assert (rows["trace.step_px"].limits, rows["trace.step_px"].unit) == ("0.1 … 4", "px")
     assert rows["trace.style"].limits == "photo, fibre"

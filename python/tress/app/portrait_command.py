@@ -24,7 +24,7 @@ def portrait(
     strands: Annotated[
         int | None,
         typer.Option(
-            min=1, max=200_000, help="How many strands to grow.", show_default="50000", rich_help_panel=_RESULT
+            min=100, max=1_000_000, help="How many strands to grow.", show_default="50000", rich_help_panel=_RESULT
         ),
     ] = None,
     max_size: Annotated[

@@ -12,7 +12,7 @@ P = TypeVar("P")
 
 @dataclasses.dataclass(frozen=True)
 class Setting:
-    """One parameter as the tables show it: `name` is "stage.field"; `limits` its range or its choices, in words."""
+    """One parameter as the tables show it: `name` is "stage.field" or "stage.group.field"; `limits` its range or choices."""
 
     name: str
     default: Any
@@ -22,10 +22,19 @@ class Setting:
 
 
 def settings(params: Any) -> Iterator[Setting]:
-    """Every parameter of the stages of `params`, in the order of their declaration."""
-    for group in _groups(params):
-        for item in dataclasses.fields(getattr(params, group)):
-            yield _setting(f"{group}.{item.name}", item, getattr(getattr(params, group), item.name))
+    """Every parameter of the stages of `params`, in the order of their declaration; nested groups have longer names."""
+    for group in dataclasses.fields(params):
+        if dataclasses.is_dataclass(getattr(params, group.name)):
+            yield from _group_settings(group.name, getattr(params, group.name))
+
+
+def _group_settings(prefix: str, group: Any) -> Iterator[Setting]:
+    for item in dataclasses.fields(group):
+        value = getattr(group, item.name)
+        if dataclasses.is_dataclass(value):
+            yield from _group_settings(f"{prefix}.{item.name}", value)
+        else:
+            yield _setting(f"{prefix}.{item.name}", item, value)
 
 
 def with_settings(params: P, assignments: Sequence[str]) -> P:
@@ -45,10 +54,6 @@ def with_settings(params: P, assignments: Sequence[str]) -> P:
     return params
 
 
-def _groups(params: Any) -> list[str]:
-    return [item.name for item in dataclasses.fields(params) if dataclasses.is_dataclass(getattr(params, item.name))]
-
-
 def _setting(name: str, item: dataclasses.Field[Any], default: Any) -> Setting:
     limits = item.metadata.get("range")
     if limits is not None:
@@ -58,9 +63,10 @@ def _setting(name: str, item: dataclasses.Field[Any], default: Any) -> Setting:
 
 
 def _assigned(params: P, name: str, value: Any) -> P:
-    group, _, field = name.partition(".")
-    changed = dataclasses.replace(getattr(params, group), **{field: value})
-    return dataclasses.replace(params, **{group: changed})  # type: ignore[type-var]
+    first, _, rest = name.partition(".")
+    if rest:
+        value = _assigned(getattr(params, first), rest, value)
+    return dataclasses.replace(params, **{first: value})  # type: ignore[type-var]
 
 
 def _parsed(name: str, words: str, default: Any) -> Any:
