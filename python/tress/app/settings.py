@@ -12,7 +12,7 @@ P = TypeVar("P")
 
 @dataclasses.dataclass(frozen=True)
 class Setting:
-    """One parameter as the tables show it: `name` is "stage.field" or "stage.group.field"; `limits` its range or choices."""
+    """One parameter as the tables show it, named "stage.field" or "stage.group.field"; `limits` are in words."""
 
     name: str
     default: Any

@@ -21,8 +21,8 @@ def read_depth_strokes(
 ) -> NDArray[np.float32]:
     """Depths (H, W) float32, metres towards the camera from the head's centre; NaN where there is no stroke.
 
-    The file is JSON: `{"strokes": [{"depth_m": 0.08, "width": 10, "points": [[x, y], ...]}]}`; widths (8 px if absent) and
-    points are in pixels that `scale` (x, y) takes to those of `shape`. Later strokes lie over earlier ones.
+    The file is JSON: `{"strokes": [{"depth_m": 0.08, "width": 10, "points": [[x, y], ...]}]}`; widths (8 px if absent)
+    and points are in pixels that `scale` (x, y) takes to those of `shape`. Later strokes lie over earlier ones.
 
     Raises `InputError` where the file cannot be read or a stroke lacks a part.
     """
