@@ -13,6 +13,7 @@ from tress.head.landmarks import FaceLandmarks
 from tress.image.strokes import read_strokes
 from tress.io.photo import Photo
 from tress.methods.portrait.corrections import Corrections
+from tress.methods.portrait.depth_strokes import read_depth_strokes
 
 
 @dataclass(frozen=True)
@@ -31,17 +32,23 @@ def read_corrections(files: CorrectionFiles, *, photo: Photo) -> Corrections:
         face=files.face,
         landmarks=None if files.landmarks is None else _landmarks(files.landmarks, photo),
         strokes=None if files.strokes is None else _strokes(files.strokes, photo),
+        depth_strokes=None if files.depth_strokes is None else _depth_strokes(files.depth_strokes, photo),
     )
 
 
 def _landmarks(path: Path, photo: Photo) -> HandPoints:
     """The points at the size of the stages."""
-    height, width = photo.pixels.shape[:2]
-    scale = np.array([width / photo.original_width, height / photo.original_height])
+    scale = _scale(photo)
     points = read_hand_points(path)
     if isinstance(points, FaceLandmarks):
         return replace(points, points=points.points * np.array([*scale, scale[0]], np.float32))
-    return {name: (x * float(scale[0]), y * float(scale[1])) for name, (x, y) in points.items()}
+    return {name: (x * scale[0], y * scale[1]) for name, (x, y) in points.items()}
+
+
+def _scale(photo: Photo) -> tuple[float, float]:
+    """What takes pixels of the photo as the user has it to those that the stages see, in x and y."""
+    height, width = photo.pixels.shape[:2]
+    return width / photo.original_width, height / photo.original_height
 
 
 def _strokes(path: Path, photo: Photo) -> NDArray[np.uint8]:
@@ -57,3 +64,8 @@ def _strokes(path: Path, photo: Photo) -> NDArray[np.uint8]:
         return strokes
     shrunk = cv2.resize(strokes, working[::-1], interpolation=cv2.INTER_NEAREST)
     return np.asarray(shrunk, np.uint8)
+
+
+def _depth_strokes(path: Path, photo: Photo) -> NDArray[np.float32]:
+    height, width = photo.pixels.shape[:2]
+    return read_depth_strokes(path, shape=(height, width), scale=_scale(photo))

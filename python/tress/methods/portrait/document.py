@@ -6,21 +6,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tress.head.fit import FittedHead
+from tress.head.texture import head_texture
+from tress.image.labels import FACE
+from tress.methods.portrait.color import ColoredHair
+from tress.methods.portrait.grow import GrownHair
 from tress.methods.portrait.head import PortraitHead
 from tress.methods.portrait.stage import Work
 from tress.model.camera import Camera
 from tress.model.document import Document
+from tress.model.evaluate import Scene
 from tress.model.head import MASKS, Head
 from tress.model.mesh import Mesh
 from tress.model.recipe import Recipe, flat_parameters
+from tress.model.strands import Strands
+from tress.model.texture import Texture
+
+STRAND_RADIUS_M = 4e-5
+"""Half the width of a human hair, 0.08 mm."""
 
 
 def portrait_document(work: Work) -> Document:
-    """The document of a finished `work`: `head`, `photo` and `recipe`."""
+    """The document of a finished `work`: `head`, `hair`, `photo` and `recipe`."""
     head: PortraitHead = work["head"]
+    colored: ColoredHair = work["color"]
     return Document(
         {
-            "head": head_record(head.fitted),
+            "head": head_record(head.fitted, texture=_texture(work)),
+            "hair": hair_record(head.fitted, grown=work["strands"], color=colored.color),
             "photo": photo_camera(head.fitted, shape=work.pixels.shape[:2]),
             "recipe": Recipe(
                 method="portrait",
@@ -32,19 +44,26 @@ def portrait_document(work: Work) -> Document:
     )
 
 
-def photo_camera(fitted: FittedHead, *, shape: tuple[int, int]) -> Camera:
+def bare_scene(fitted: FittedHead, *, grown: GrownHair) -> Scene:
+    """The strands in the colours that they grew with, and the head without texture: what visibility needs."""
+    hair = hair_record(fitted, grown=grown, color=grown.color)
+    return Scene(strands={"hair": hair}, meshes={"head": head_record(fitted).mesh})
+
+
+def photo_camera(fitted: FittedHead, *, shape: tuple[int, ...]) -> Camera:
     """The camera of the photo of `shape` (H, W), seen from the head frame."""
     height, width = shape
     return Camera(xy_from_world=fitted.xy_from_view @ fitted.view_from_head, width=width, height=height)
 
 
-def head_record(fitted: FittedHead) -> Head:
-    """The fitted head in the head frame, with its masks."""
+def head_record(fitted: FittedHead, *, texture: NDArray[np.uint8] | None = None) -> Head:
+    """The fitted head in the head frame, with its masks, and its `texture` (S, S, 3) uint8 sRGB if there is one."""
     mesh = Mesh(
         positions=in_head(fitted.positions_in_view, fitted.view_from_head).astype(np.float32),
         triangles=fitted.triangles,
         corner_uv=fitted.corner_uv,
         vertex_attributes={name: fitted.masks[name] for name in MASKS if name in fitted.masks},
+        texture=None if texture is None else Texture(pixels=texture),
     )
     return Head(
         mesh=mesh,
@@ -54,6 +73,27 @@ def head_record(fitted: FittedHead) -> Head:
     )
 
 
+def hair_record(fitted: FittedHead, *, grown: GrownHair, color: NDArray[np.float32]) -> Strands:
+    """The grown strands in the head frame, in `color` (N, 3) linear."""
+    points = in_head(grown.points, fitted.view_from_head).astype(np.float32)
+    return Strands(
+        points=points,
+        offsets=grown.offsets,
+        point_attributes={
+            "color": color,
+            "alpha": grown.alpha,
+            "radius": np.full(len(points), STRAND_RADIUS_M, np.float32),
+        },
+        strand_attributes={"visible": grown.visible},
+    )
+
+
 def in_head(points_in_view: NDArray[np.floating], view_from_head: NDArray[np.float64]) -> NDArray[np.float64]:
     """Points (N, 3) of the view frame in the head frame: the inverse of the rigid `view_from_head` (4, 4)."""
     return (points_in_view - view_from_head[:3, 3]) @ view_from_head[:3, :3]
+
+
+def _texture(work: Work) -> NDArray[np.uint8]:
+    """The head's texture: skin where the photo shows it, the colour of the roots on the scalp."""
+    skin = (work["layers"].label == FACE) * (1 - work["matte"].alpha)
+    return head_texture(work.pixels, fitted=work["head"].fitted, skin=skin)

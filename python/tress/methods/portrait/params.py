@@ -8,6 +8,7 @@ from tress.image.layers import LayerParams
 from tress.image.matte import MatteParams
 from tress.image.orient import OrientParams
 from tress.image.trace import TraceParams
+from tress.methods.portrait.color import ColorParams
 from tress.methods.portrait.depth import DepthParams
 from tress.methods.portrait.grow import GrowParams
 from tress.methods.portrait.volume import VolumeParams
@@ -26,3 +27,4 @@ class PortraitParams(Params):
     depth: DepthParams = field(default_factory=DepthParams)
     volume: VolumeParams = field(default_factory=VolumeParams)
     strands: GrowParams = field(default_factory=GrowParams)
+    color: ColorParams = field(default_factory=ColorParams)

@@ -1,0 +1,108 @@
+"""The stage `color`: colours of the strands with which the hair looks as in the photograph."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from skimage.metrics import structural_similarity
+
+from tress.base.color import linear_to_srgb8
+from tress.base.params import Params, param
+from tress.base.report import Report
+from tress.image.matte import Matte
+from tress.model.evaluate import Scene
+from tress.render.fit_colors import fit_vertex_colors
+from tress.render.flat_scene import FlatScene, flat_scene
+from tress.render.gbuffer import GBuffer, rasterise
+from tress.render.picture import over, premultiplied_rgba, srgb_rgba
+from tress.render.styles.photo import PhotoStyle
+
+_MOSTLY_HAIR = 0.5
+_LUMA = np.array([0.299, 0.587, 0.114])
+
+
+@dataclass(frozen=True)
+class ColorParams(Params):
+    """Settings of the colour fit and of the picture that it is held against."""
+
+    iterations: int = param(12, low=0, high=200, doc="Rounds of the fit; 0 keeps the colours that strands grew with.")
+    min_width_px: float = param(1.0, low=0.1, high=8.0, unit="px", doc="Least width of a strand in pictures.")
+    strand_bias: float = param(0.002, low=0.0, high=0.02, unit="m", doc="How far hair may lie in the skin and show.")
+
+
+@dataclass(frozen=True)
+class ColoredHair:
+    """The hair as the photo shows it.
+
+    `color` (N, 3) float32 linear of every vertex; `rerender` (H, W, 4) uint8 sRGB, straight alpha, the hair alone from
+    the photo's view; `composite` (H, W, 3) uint8 sRGB, the same over the photo's other layers; how like the photo that
+    is where there is hair, `psnr` in dB and `ssim`.
+    """
+
+    color: NDArray[np.float32]
+    rerender: NDArray[np.uint8]
+    composite: NDArray[np.uint8]
+    psnr: float
+    ssim: float
+
+
+def color_stage(
+    scene: Scene,
+    *,
+    pixels: NDArray[np.uint8],
+    matte: Matte,
+    xy_from_world: NDArray[np.float64],
+    params: ColorParams,
+    report: Report,
+) -> ColoredHair:
+    """Colours for the strands of `scene` (with the head, which hides hair) seen by the photo's camera (3, 4)."""
+    flat = flat_scene(scene)
+    gbuffer = _seen(flat, pixels.shape[:2], xy_from_world, params)
+    report.progress(0.3)
+    color = fit_vertex_colors(
+        gbuffer, colors=flat.color, target_linear=matte.foreground, weight=matte.alpha, iterations=params.iterations
+    )
+    return _compared(color, gbuffer, pixels, matte, report)
+
+
+def _seen(flat: FlatScene, shape: tuple[int, int], xy_from_world: NDArray[np.float64], params: ColorParams) -> GBuffer:
+    return rasterise(
+        flat,
+        xy_from_world=xy_from_world,
+        width=shape[1],
+        height=shape[0],
+        strand_bias_m=params.strand_bias,
+        min_width_px=params.min_width_px,
+    )
+
+
+def _compared(
+    color: NDArray[np.float32], gbuffer: GBuffer, pixels: NDArray[np.uint8], matte: Matte, report: Report
+) -> ColoredHair:
+    """The hair alone and over the photo's other layers, and how like the photo that is."""
+    colored = replace(gbuffer, scene=replace(gbuffer.scene, color=color))
+    hair = premultiplied_rgba(colored, style=PhotoStyle(), hold_out_meshes=True)
+    composite = linear_to_srgb8(over(hair, background=matte.background))
+    mask = matte.alpha > _MOSTLY_HAIR
+    psnr, ssim = _likeness(composite, pixels, mask)
+    report.number("psnr_db", round(psnr, 2))
+    report.number("ssim", round(ssim, 4))
+    report.number("covered", round(float(hair[..., 3][mask].mean()), 4) if mask.any() else 0.0)
+    return ColoredHair(color, srgb_rgba(hair), composite, psnr, ssim)
+
+
+def _likeness(picture: NDArray[np.uint8], photo: NDArray[np.uint8], mask: NDArray[np.bool_]) -> tuple[float, float]:
+    """PSNR in dB of the colours, and mean SSIM of the luma (Wang et al. 2004, Gaussian window), over the pixels of `mask`."""
+    if not mask.any():
+        return 0.0, 0.0
+    error = (picture[mask].astype(np.float64) - photo[mask]) ** 2
+    likeness = structural_similarity(
+        picture @ _LUMA,
+        photo @ _LUMA,
+        data_range=255,
+        gaussian_weights=True,
+        sigma=1.5,
+        use_sample_covariance=False,
+        full=True,
+    )[-1]
+    return float(10 * np.log10(255**2 / max(error.mean(), 1e-9))), float(np.asarray(likeness)[mask].mean())
