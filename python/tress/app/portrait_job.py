@@ -56,7 +56,7 @@ def run_portrait(options: PortraitOptions, *, report: Report) -> Delivery:
             report=report,
         )
         facts = _facts(options, photo, params)
-        deliver(reconstruction, output.path, formats=formats, facts=facts, report=report)
+        deliver(reconstruction, output.path, formats=formats, turntable=options.turntable, facts=facts, report=report)
         files = tuple(sorted(file.relative_to(output.path) for file in output.path.rglob("*") if file.is_file()))
     return Delivery(options.folder, files)
 
@@ -73,7 +73,10 @@ def _read(options: PortraitOptions, report: Report) -> Photo:
 
 
 def _params(options: PortraitOptions) -> PortraitParams:
-    return with_settings(replace(PortraitParams(), seed=options.seed), options.settings)
+    params = replace(PortraitParams(), seed=options.seed)
+    if options.strands is not None:
+        params = replace(params, strands=replace(params.strands, count=options.strands))
+    return with_settings(params, options.settings)
 
 
 def _facts(options: PortraitOptions, photo: Photo, params: PortraitParams) -> dict[str, Any]:

@@ -92,7 +92,7 @@ def _compared(
 
 
 def _likeness(picture: NDArray[np.uint8], photo: NDArray[np.uint8], mask: NDArray[np.bool_]) -> tuple[float, float]:
-    """PSNR in dB of the colours, and mean SSIM of the luma (Wang et al. 2004, Gaussian window), over the pixels of `mask`."""
+    """PSNR in dB of the colours, and mean SSIM of the luma (Wang et al. 2004, Gaussian window), where `mask` is."""
     if not mask.any():
         return 0.0, 0.0
     error = (picture[mask].astype(np.float64) - photo[mask]) ** 2

@@ -2,6 +2,7 @@
 
 import importlib.metadata
 import json
+import math
 import platform
 import resource
 from collections.abc import Mapping, Sequence
@@ -9,15 +10,32 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image
 
 from tress import __version__
 from tress.base.report import Report
 from tress.io.format import Format
+from tress.io.formats.npz import Maps, write_reconstruction
 from tress.io.stage_cache import StageCache
 from tress.methods.portrait.pipeline import STAGES, Reconstruction
+from tress.model.camera import Camera
+from tress.model.evaluate import evaluate
+from tress.model.strands import Strands
+from tress.render.flat_scene import FlatScene, flat_scene
+from tress.render.gbuffer import rasterise
+from tress.render.picture import premultiplied_rgba, srgb_rgb
+from tress.render.preview import contact_sheet
+from tress.render.styles.photo import PhotoStyle
+from tress.render.turntable import BACKDROP
+from tress.render.turntable import turntable as frames_of_turn
+from tress.render.video import write_webm
+from tress.render.views import framed, pivot, turned
 
 STAGES_FOLDER: Final = "stages"
+PREVIEW_HEIGHT: Final = 640
+PREVIEW_ANGLES: Final = tuple(math.radians(angle) for angle in (-30, 30, 180))
+PREVIEW_CAPTIONS: Final = ("photo", "rendered over it", "-30 degrees", "+30 degrees", "back")
 _VERSIONS_OF: Final = ("numpy", "scipy", "opencv-python-headless", "scikit-image", "pillow", "usd-core")
 
 
@@ -26,17 +44,26 @@ def deliver(
     folder: Path,
     *,
     formats: Sequence[Format],
+    turntable: bool,
     facts: Mapping[str, Any],
     report: Report,
 ) -> None:
     """Writes every file of a reconstruction into `folder`, which exists. Raises `OSError` and `OutputError`.
 
-    `formats` says which files the hair is written to, `facts` what the report says besides times and figures.
+    `formats` says which files the hair is written to, `turntable` whether the film is made, `facts` what the report
+    says besides times and figures.
     """
     with report.stage("stages"):
         deliver_stages(reconstruction, folder)
     with report.stage("formats"):
         deliver_formats(reconstruction, folder, formats=formats)
+        deliver_arrays(reconstruction, folder)
+    scene = flat_scene(evaluate(reconstruction.document))
+    with report.stage("preview"):
+        write_picture(preview(reconstruction, scene), folder / "preview.png")
+    if turntable:
+        with report.stage("turntable"):
+            write_webm(folder / "turntable.webm", frames=frames_of_turn(scene, style=PhotoStyle.soft(), report=report))
     deliver_report(report, folder, facts=facts)
 
 
@@ -53,6 +80,34 @@ def deliver_formats(reconstruction: Reconstruction, folder: Path, *, formats: Se
     """The document as `hair` in each format."""
     for form in formats:
         form.write(reconstruction.document, folder / f"hair{form.suffixes[0]}")
+
+
+def deliver_arrays(reconstruction: Reconstruction, folder: Path) -> None:
+    """`reconstruction.npz`: strands, camera, orientation, hair mask and re-rendered photo as plain arrays."""
+    work, records = reconstruction.work, reconstruction.document.records
+    maps = Maps(
+        orientation=work["orientation"].angle,
+        hair_mask=np.rint(work["matte"].alpha * 255).astype(np.uint8),
+        rerender=work["color"].composite,
+    )
+    strands, camera = records["hair"], records["photo"]
+    assert isinstance(strands, Strands) and isinstance(camera, Camera)
+    write_reconstruction(strands, folder / "reconstruction.npz", camera=camera, maps=maps)
+
+
+def preview(reconstruction: Reconstruction, scene: FlatScene) -> NDArray[np.uint8]:
+    """The photo, the hair rendered over it, the head turned by 30° to either side, and from behind."""
+    work = reconstruction.work
+    height = work.pixels.shape[0]
+    camera = framed(scene, width=round(0.8 * PREVIEW_HEIGHT), height=PREVIEW_HEIGHT)
+    views = [_view(scene, turned(camera, angle_rad=angle, pivot_in_world=pivot(scene))) for angle in PREVIEW_ANGLES]
+    pictures = [work.pixels, work["color"].composite, *views]
+    return contact_sheet(pictures, captions=PREVIEW_CAPTIONS, height=min(height, PREVIEW_HEIGHT))
+
+
+def _view(scene: FlatScene, camera: Camera) -> NDArray[np.uint8]:
+    seen = rasterise(scene, xy_from_world=camera.xy_from_world, width=camera.width, height=camera.height)
+    return srgb_rgb(premultiplied_rgba(seen, style=PhotoStyle.soft()), background=BACKDROP)
 
 
 def deliver_report(report: Report, folder: Path, *, facts: Mapping[str, Any]) -> None:
