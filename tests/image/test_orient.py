@@ -9,7 +9,7 @@ from tress.base.errors import InputError
 from tress.image.orient import OrientParams, orientation_map
 from tress.kernel.image import gabor_responses, orient
 
-ONE_ROUND = OrientParams(rounds=0, kernel_scale=1.0)
+ONE_ROUND = OrientParams(rounds=0, kernel_scale=1.0, stretch=1.0)
 
 
 def stripes(angle, *, size=48, wavelength=4.0):
@@ -30,7 +30,7 @@ def test_crests_run_along_the_stripes(angle):
 
 
 def test_angles_on_the_bins_are_multiples_of_their_distance():
-    params = OrientParams(rounds=0, kernel_scale=1.0, angles="bins")
+    params = OrientParams(rounds=0, kernel_scale=1.0, stretch=1.0, angles="bins")
     found = orientation_map(stripes(0.3), mask=np.ones((48, 48), bool), params=params)
     bins = found.angle / (np.pi / 32)
     np.testing.assert_allclose(bins, np.rint(bins), atol=1e-4)

@@ -15,6 +15,8 @@ use crate::ridges::seeds;
 
 /// Steps over which the curvature is measured that an uncertain thread keeps.
 const CURVATURE_STEPS: usize = 8;
+/// Cosine of the angle within which two curves run along each other (20 degrees).
+const ALONG: f64 = 0.94;
 /// A curve that comes back to a pixel after this many of its own vertices runs in a circle.
 const RETURN_STEPS: usize = 24;
 
@@ -35,6 +37,8 @@ pub struct TraceParams {
     pub max_bend: f64,
     /// Distance across the strand at which its flanks are sampled, pixels.
     pub reach_px: f64,
+    /// A curve that runs along an earlier one for longer than this ends where it met it, pixels.
+    pub overlap_px: f64,
     /// Shorter curves are dropped, pixels.
     pub min_length_px: f64,
 }
@@ -71,22 +75,59 @@ pub fn trace(angle: &[f32], confidence: Plane<'_>, mask: &[bool], params: TraceP
         }
     }
     let field = Field::new(angle, confidence, mask, params);
-    let mut free = vec![true; mask.len()];
+    let mut taken = Taken::new(confidence);
     let mut visits = Visits { stamp: vec![0; mask.len()], at: vec![0; mask.len()], current: 0 };
     let mut traced = Traced { offsets: vec![0], ..Traced::default() };
     for seed in seeds(confidence, angle, params.high, params.epsilon, params.reach_px) {
-        if !(free[seed as usize] && mask[seed as usize]) {
+        if taken.any(seed as usize) || !mask[seed as usize] {
             continue;
         }
-        let curve = field.curve(seed as usize, &mut visits);
-        curve.iter().filter_map(|vertex| field.pixel(vertex.point)).for_each(|pixel| free[pixel] = false);
-        free[seed as usize] = false;
+        let curve = field.curve(seed as usize, &mut visits, &taken);
+        curve.iter().for_each(|vertex| taken.take(vertex, params.reach_px));
         let length: f64 = curve.windows(2).map(|pair| pair[0].point.distance(pair[1].point)).sum();
         if curve.len() >= 2 && length >= params.min_length_px {
             traced.push(&curve);
         }
     }
     Ok(traced)
+}
+
+/// Pixels that traced curves cover, with their direction there: no seeds any more, and no place for a second curve.
+struct Taken {
+    direction: Vec<[f32; 2]>,
+    width: usize,
+    height: usize,
+}
+
+impl Taken {
+    fn new(like: Plane<'_>) -> Self {
+        Self { direction: vec![[0.0; 2]; like.values.len()], width: like.width, height: like.height }
+    }
+
+    fn any(&self, pixel: usize) -> bool {
+        self.direction[pixel] != [0.0; 2]
+    }
+
+    /// Does a curve in about this direction cover the pixel?
+    fn along(&self, pixel: usize, direction: DVec2) -> bool {
+        let [x, y] = self.direction[pixel];
+        DVec2::new(f64::from(x), f64::from(y)).dot(direction).abs() > ALONG
+    }
+
+    /// Takes the pixels at a vertex and half-way to its flanks, unless it lies under another strand.
+    fn take(&mut self, vertex: &Vertex, reach_px: f64) {
+        if !vertex.certain {
+            return;
+        }
+        let across = vertex.direction.perp() * (0.75 * reach_px);
+        for point in [vertex.point, vertex.point - across, vertex.point + across] {
+            let (x, y) = (point.x.floor(), point.y.floor());
+            if x >= 0.0 && y >= 0.0 && x < self.width as f64 && y < self.height as f64 {
+                self.direction[y as usize * self.width + x as usize] =
+                    [vertex.direction.x as f32, vertex.direction.y as f32];
+            }
+        }
+    }
 }
 
 impl Traced {
@@ -159,7 +200,7 @@ impl<'a> Field<'a> {
     }
 
     /// The curve through a seed: both ways, with uncertain ends trimmed.
-    fn curve(&self, seed: usize, visits: &mut Visits) -> Vec<Vertex> {
+    fn curve(&self, seed: usize, visits: &mut Visits, taken: &Taken) -> Vec<Vertex> {
         let width = self.confidence.width;
         let start = DVec2::new((seed % width) as f64 + 0.5, (seed / width) as f64 + 0.5);
         let Some(direction) = self.direction(start, DVec2::X) else { return Vec::new() };
@@ -167,20 +208,21 @@ impl<'a> Field<'a> {
         let confidence = self.confidence.bilinear(point.x, point.y);
         let first = Vertex { point, direction, certain: true, occluded: false, confidence };
         visits.current += 1;
-        let mut curve = self.half(Vertex { direction: -direction, ..first }, visits);
+        let mut curve = self.half(Vertex { direction: -direction, ..first }, visits, taken);
         curve.reverse();
         visits.current += 1;
         curve.push(first);
-        curve.extend(self.half(first, visits));
+        curve.extend(self.half(first, visits, taken));
         curve
     }
 
     /// Vertices after `first`, one way, up to the last certain one.
-    fn half(&self, first: Vertex, visits: &mut Visits) -> Vec<Vertex> {
+    fn half(&self, first: Vertex, visits: &mut Visits, taken: &Taken) -> Vec<Vertex> {
         let mut steps: Vec<Vertex> = Vec::new();
         let mut last = first;
         let mut turn = 0.0;
         let mut health = self.params.health;
+        let mut shared = 0;
         let longest = 4 * (self.confidence.width + self.confidence.height);
         while steps.len() < longest {
             let point = last.point + self.params.step_px * last.direction;
@@ -191,6 +233,11 @@ impl<'a> Field<'a> {
                 break;
             }
             steps.push(last);
+            shared = if last.certain && taken.along(pixel, last.direction) { shared + 1 } else { 0 };
+            if shared as f64 * self.params.step_px > self.params.overlap_px {
+                steps.truncate(steps.len() - shared + 1);
+                break;
+            }
             if last.certain {
                 turn = mean_turn(first.direction, &steps);
             }

@@ -30,9 +30,15 @@ class OrientParams(Params):
         high=4.0,
         doc="Factor on the kernels' sizes; 0 lets it follow the size of the hair in the picture.",
     )
-    rounds: int = param(1, low=0, high=4, doc="How often the confidence is filtered again, to drop false ridges.")
+    stretch: float = param(
+        3.0,
+        low=0.5,
+        high=8.0,
+        doc="Factor on the length of the kernels alone; 1 is the paper's, longer ones see through the noise of photos.",
+    )
+    rounds: int = param(2, low=0, high=4, doc="How often the confidence is filtered again, to drop false ridges.")
     white_percentile: float = param(
-        98.0, low=50.0, high=100.0, unit="%", doc="Share of the hair's pixels whose confidence is at most 1."
+        97.0, low=50.0, high=100.0, unit="%", doc="Share of the hair's pixels whose confidence is at most 1."
     )
     margin_px: int = param(2, low=0, high=64, unit="px", doc="How far beyond the mask orientation is measured.")
     polarity: str = choice("bright", options=("bright", "dark", "both"), doc="Which ridges of brightness are strands.")
@@ -78,23 +84,22 @@ def orientation_map(
     Takes about 0.1 s for a region of 500 x 500 px on two cores. Raises `InputError` where shapes do not fit.
     """
     scale = params.kernel_scale or natural_scale(mask)
-    sizes = GaborSizes(params.sigma_u, params.sigma_v, params.wavelength).scaled(scale)
+    sizes = GaborSizes(params.sigma_u, params.sigma_v * params.stretch, params.wavelength).scaled(scale)
     near = _grown(mask, params.margin_px)
-    angle, confidence = _first_round(np.asarray(image, np.float32), near, sizes, params)
-    confidence = _scaled(confidence, mask, params.white_percentile)
+    angle, weight = _first_round(np.asarray(image, np.float32), near, sizes, params)
     for _ in range(params.rounds):
-        angle, confidence = _oriented(confidence, near, sizes, params)
-        confidence = _scaled(confidence, mask, params.white_percentile)
+        angle, weight = _oriented(weight, near, sizes, params)
+    confidence = _scaled(weight, mask, params.white_percentile)
     return OrientationMap(angle, confidence, scale)
 
 
 def natural_scale(mask: NDArray[np.bool_]) -> float:
-    """Factor on the paper's kernel sizes, in [0.75, 3], for hair that covers `mask` (H, W).
+    """Factor on the paper's kernel sizes, in [1, 3], for hair that covers `mask` (H, W).
 
     The paper's sizes are for hair regions of some 500 x 500 px, of which hair covers about 350 x 350: the factor is the
     square root of the area in units of that.
     """
-    return float(np.clip(np.sqrt(np.count_nonzero(mask)) / 350.0, 0.75, 3.0))
+    return float(np.clip(np.sqrt(np.count_nonzero(mask)) / 350.0, 1.0, 3.0))
 
 
 def _first_round(

@@ -24,6 +24,13 @@ class TraceParams(Params):
     reach_px: float = param(
         0.0, low=0.0, high=16.0, unit="px", doc="Distance of the flanks; 0: a quarter of the kernels' wavelength."
     )
+    overlap_px: float = param(
+        6.0,
+        low=0.0,
+        high=1e6,
+        unit="px",
+        doc="A strand that runs along an earlier one for longer ends where they met; the paper lets it go on.",
+    )
     min_length_px: float = param(6.0, low=0.0, high=1000.0, unit="px", doc="Shorter strands are dropped.")
 
 
@@ -92,6 +99,7 @@ def traced_strands(
         step_px=params.step_px,
         max_bend=params.max_bend,
         reach_px=params.reach_px or orientation.kernel_scale,
+        overlap_px=params.overlap_px,
         min_length_px=params.min_length_px,
     )
     color = sampled(foreground, points=curves.points)

@@ -62,7 +62,8 @@ def orient(
     """Strand direction (H, W) float32 in [0, π), NaN outside `mask`, and its confidence before scaling, 0 outside.
 
     Bright ridges of `image` are found, only inside `mask` (H, W) bool. Of the banks with the given `sizes`, each pixel
-    takes the one that answers most strongly. `between_bins` refines the best kernel's angle by a parabola. Source: Chai et al. 2012, eq. 2 and 3.
+    takes the one that answers most strongly. `between_bins` refines the best kernel's angle by a parabola. Source: Chai
+    et al. 2012, eq. 2 and 3.
 
     >>> stripes = np.tile(np.cos(np.arange(40) * np.pi / 2), (40, 1))
     >>> angle, _ = orient(stripes, mask=np.ones((40, 40), bool))
@@ -97,6 +98,7 @@ def trace(
     step_px: float,
     max_bend: float,
     reach_px: float,
+    overlap_px: float,
     min_length_px: float,
 ) -> Curves:
     """Curves along the ridges of `confidence` (H, W), in the directions `angle` (H, W), NaN where unknown.
@@ -116,6 +118,7 @@ def trace(
         step_px=float(step_px),
         max_bend=float(max_bend),
         reach_px=float(reach_px),
+        overlap_px=float(overlap_px),
         min_length_px=float(min_length_px),
     )
     return Curves(*found)
