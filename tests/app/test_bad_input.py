@@ -60,7 +60,7 @@ def test_json_is_all_there_is_on_standard_output(tress, rooms):
         (["--from-stage", "trace"], "01_head.npz is missing"),
         (["--set", "depth.wait=2"], "names no parameter"),
         (["--formats", "usdc,fbx"], "fbx"),
-        (["--face", "7"], "counted from 0 on the left"),
+        (["--face", "7"], "Face 7 was asked for"),
     ],
 )
 def test_unusable_options(tress, rooms, astronaut, options, message):

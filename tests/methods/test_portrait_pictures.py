@@ -24,6 +24,18 @@ def test_a_horizontal_strand_fills_its_row_and_nearer_ones_lie_over_it():
     assert (turned[4, 5] == [0, 0, 255]).all()
 
 
+def test_of_many_strands_some_are_drawn():
+    row = np.arange(40.0)
+    points = np.stack([np.tile([0.5, 8.5], 40), np.repeat(row + 0.5, 2)], axis=1)
+    colors = np.full((80, 3), 200, np.uint8)
+    offsets = np.arange(0, 81, 2)
+    drawn = [
+        strands_picture(points, offsets=offsets, colors=colors, shape=(40, 9), most_strands=most)[:, 4].any(axis=1)
+        for most in (40, 10)
+    ]
+    assert (int(drawn[0].sum()), int(drawn[1].sum())) == (40, 10)
+
+
 def test_strands_outside_the_picture_are_cut_off():
     points = np.array([[-50.0, 3.0], [50.0, 3.0]])
     picture = strands_picture(points, offsets=np.array([0, 2]), colors=np.full((2, 3), 9, np.uint8), shape=(6, 6))

@@ -26,6 +26,7 @@ class ColorParams(Params):
     """Settings of the colour fit and of the picture that it is held against."""
 
     iterations: int = param(12, low=0, high=200, doc="Rounds of the fit; 0 keeps the colours that strands grew with.")
+    least_alpha: float = param(0.3, low=0.0, high=1.0, doc="Pixels with less hair than this say nothing on its colour.")
     min_width_px: float = param(1.0, low=0.1, high=8.0, unit="px", doc="Least width of a strand in pictures.")
     strand_bias: float = param(0.002, low=0.0, high=0.02, unit="m", doc="How far hair may lie in the skin and show.")
 
@@ -59,8 +60,9 @@ def color_stage(
     flat = flat_scene(scene)
     gbuffer = _seen(flat, pixels.shape[:2], xy_from_world, params)
     report.progress(0.3)
+    weight = np.where(matte.alpha > params.least_alpha, matte.alpha, 0).astype(np.float32)
     color = fit_vertex_colors(
-        gbuffer, colors=flat.color, target_linear=matte.foreground, weight=matte.alpha, iterations=params.iterations
+        gbuffer, colors=flat.color, target_linear=matte.foreground, weight=weight, iterations=params.iterations
     )
     return _compared(color, gbuffer, pixels, matte, report)
 

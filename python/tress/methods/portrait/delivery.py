@@ -6,6 +6,7 @@ import math
 import platform
 import resource
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, Final
 
@@ -19,6 +20,7 @@ from tress.io.format import Format
 from tress.io.formats.npz import Maps, write_reconstruction
 from tress.io.stage_cache import StageCache
 from tress.methods.portrait.pipeline import STAGES, Reconstruction
+from tress.methods.portrait.stage import Stage
 from tress.model.camera import Camera
 from tress.model.evaluate import evaluate
 from tress.model.strands import Strands
@@ -70,10 +72,15 @@ def deliver(
 def deliver_stages(reconstruction: Reconstruction, folder: Path) -> None:
     """For every stage its result (`NN_name.npz`, for `--from-stage`) and its picture (`NN_name.png`)."""
     cache = StageCache(folder / STAGES_FOLDER)
-    for number, stage in enumerate(STAGES, start=1):
-        print_of_stage = reconstruction.fingerprints[stage.name]
-        cache.save(reconstruction.work[stage.name], number=number, name=stage.name, fingerprint=print_of_stage)
-        write_picture(stage.picture(reconstruction.work), cache.path(number, stage.name).with_suffix(".png"))
+    cache.folder.mkdir()
+    with ThreadPoolExecutor() as pool:
+        list(pool.map(lambda numbered: _deliver_stage(reconstruction, cache, *numbered), enumerate(STAGES, start=1)))
+
+
+def _deliver_stage(reconstruction: Reconstruction, cache: StageCache, number: int, stage: Stage) -> None:
+    name, work = stage.name, reconstruction.work
+    cache.save(work[name], number=number, name=name, fingerprint=reconstruction.fingerprints[name])
+    write_picture(stage.picture(work), cache.path(number, name).with_suffix(".png"))
 
 
 def deliver_formats(reconstruction: Reconstruction, folder: Path, *, formats: Sequence[Format]) -> None:

@@ -47,13 +47,15 @@ def strands_picture(
     colors: NDArray[np.uint8],
     shape: tuple[int, int],
     depth: NDArray[np.floating] | None = None,
+    most_strands: int = 6000,
 ) -> Picture:
     """Polylines `points` (N, 2) px on black, each segment in the colour (N, 3) of its first point.
 
-    With `depth` (N,) towards the camera, nearer segments lie over farther ones; otherwise later over earlier.
+    With `depth` (N,) towards the camera, nearer segments lie over farther ones; otherwise later over earlier. Of more
+    than `most_strands`, every so many-th is drawn.
     """
     picture = np.zeros((*shape, 3), np.uint8)
-    first = np.setdiff1d(np.arange(len(points)), np.asarray(offsets[1:]) - 1)
+    first = _first_points(np.asarray(offsets, np.int64), most_strands)
     if depth is not None:
         first = first[np.argsort(depth[first], kind="stable")]
     step = points[first + 1] - points[first]
@@ -64,6 +66,14 @@ def strands_picture(
     inside = (row >= 0) & (row < shape[0]) & (column >= 0) & (column < shape[1])
     picture[row[inside], column[inside]] = colors[first[segment[inside]]]
     return picture
+
+
+def _first_points(offsets: NDArray[np.int64], most_strands: int) -> NDArray[np.int64]:
+    """The first point of every segment of at most `most_strands` strands, evenly chosen."""
+    strands = np.arange(0, len(offsets) - 1, max(1, -(-(len(offsets) - 1) // most_strands)))
+    segments = offsets[strands + 1] - offsets[strands] - 1
+    start = np.repeat(offsets[strands] - np.cumsum(segments) + segments, segments)
+    return start + np.arange(segments.sum())
 
 
 def depth_colors(depth: NDArray[np.floating]) -> NDArray[np.uint8]:
