@@ -137,6 +137,7 @@ def envelope(hair: Array, solid: Array, *, head: SolidHead, box: Box, xy_from_vi
     shell = _surface(reach, np.maximum(thickness, gap + GRAZE / 2), box, from_front=True)
     nearest = np.minimum(box.z[reach.argmin(axis=0)], 0.0)
     front = _smooth(_with_curtain(shell, nearest, head, inner, hair_here, known, box), hair_here)
+    front = np.fmax(front, head.front + RESTING / 2)
     extended = _extended(hair_here, hidden, head, box)
     behind = np.maximum(_harmonic(gap + GRAZE, extended, outline), gap + GRAZE / 2)
     back = _surface(reach, behind, box, from_front=False)
@@ -145,12 +146,15 @@ def envelope(hair: Array, solid: Array, *, head: SolidHead, box: Box, xy_from_vi
 
 
 def _support_distance(head: SolidHead, box: Box) -> Array:
-    """Metres to the head and to what lies straight below its hair-bearing part."""
+    """Metres to the head above the nape and to what lies straight below its hair-bearing part.
+
+    Neck and shoulders carry no hair: it passes by them.
+    """
     inside = np.less_equal(head.distance, 0)
     z, y = box.z[:, None, None], box.y[None, :, None]
     bearing = np.logical_and(inside, (z <= head.hairline) & (y > 0))
     below = np.logical_or.accumulate(bearing, axis=1)
-    return fields.distance(np.logical_or(inside, below)) * np.float32(box.size)
+    return fields.distance(np.logical_or(inside & (y >= min(head.nape, 0.0)), below)) * np.float32(box.size)
 
 
 def _near_front(head: SolidHead) -> Array:
@@ -169,9 +173,9 @@ def _harmonic(values: Array, mask: Array, known: Array) -> Array:
 def _with_curtain(
     shell: Array, nearest: Array, head: SolidHead, inner: Array, hair: Array, known: Array, box: Box
 ) -> Array:
-    """The shell, and beside the face hair that hangs from the temples' hairline with an elliptic edge."""
+    """The shell, and beside the face hair that hangs from the temples' hairline with a rounded edge."""
     inward = np.clip(_harmonic(inner.astype(float), hair, known), 0, 1)
-    curtain = nearest + (head.hairline - nearest) * np.sqrt(1 - (1 - inward) ** 2)
+    curtain = nearest + (head.hairline - nearest) * np.cbrt(1 - (1 - inward) ** 3)
     crown = np.nanmax(np.where(head.seen, box.y[:, None], np.nan))
     share = np.clip((0.8 - box.y / crown) / 0.3, 0, 1)[:, None]
     share = share * share * (3 - 2 * share)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.ndimage import map_coordinates
 
 from tress.base.params import Params, param
 from tress.base.report import Report
@@ -19,6 +20,9 @@ from tress.methods.portrait.volume import HairVolume
 
 Array = np.ndarray[Any, Any]
 
+DEEP_IN_HEAD = 0.001
+"""Metres within the head from which a vertex counts as passing through it."""
+
 
 @dataclass(frozen=True)
 class GrowParams(Params):
@@ -27,10 +31,10 @@ class GrowParams(Params):
     count: int = param(50000, low=100, high=1000000, doc="Most strands.")
     visible_share: float = param(0.4, low=0.0, high=1.0, doc="Most of them that start at the visible surface.")
     voxel_cap: int = param(60, low=1, high=60000, doc="Most strands in a voxel.")
-    pixel_cap: int = param(4, low=1, high=1000, doc="Most visible strands in a pixel.")
+    pixel_cap: int = param(8, low=1, high=1000, doc="Most visible strands in a pixel.")
     sheet_depth: float = param(0.0025, low=0.0, high=0.02, unit="m", doc="How far behind the surface the photo steers.")
     visible_step_px: float = param(1.25, low=0.25, high=10.0, unit="px", doc="Distance of vertices of visible strands.")
-    hidden_step: float = param(0.004, low=0.0005, high=0.02, unit="m", doc="Distance of vertices of hidden strands.")
+    hidden_step: float = param(0.005, low=0.0005, high=0.02, unit="m", doc="Distance of vertices of hidden strands.")
     longest: float = param(0.6, low=0.01, high=3.0, unit="m", doc="Longest way from a seed to root or tip.")
     shortest: float = param(0.012, low=0.0, high=0.2, unit="m", doc="Shorter strands are dropped.")
     clearance: float = param(0.001, low=0.0, high=0.01, unit="m", doc="Distance kept from the head.")
@@ -88,8 +92,18 @@ def grow(
     report.number("visible_strands", len(seen.offsets) - 1)
     report.number("hidden_strands", len(hidden.offsets) - 1)
     report.number("vertices", len(points))
+    report.number("strands_through_head", _through_head(points, offsets, hair))
     color, opacity = strand_colors(points, offsets, visible, hair, foreground, alpha, matrix, random)
     return GrownHair(points, offsets, color, opacity, visible, np.concatenate([seen.rooted, hidden.rooted]))
+
+
+def _through_head(points: Array, offsets: Array, hair: HairVolume) -> int:
+    """Number of strands with a vertex more than a millimetre within the head."""
+    place = hair.box.cells(points.astype(np.float64))[:, ::-1] - 0.5
+    nearest = np.clip(np.rint(place).astype(np.int64), 0, np.array(hair.inside.shape) - 1)
+    close = np.nonzero(hair.head_distance[tuple(nearest.T)] < hair.voxel)[0]
+    within = close[map_coordinates(hair.head_distance, place[close].T, order=1, mode="nearest") < -DEEP_IN_HEAD]
+    return len(np.unique(np.searchsorted(offsets, within, side="right")))
 
 
 def _settings(params: GrowParams, step: float, pixel_cap: int, most: int) -> fields.TraceSettings:

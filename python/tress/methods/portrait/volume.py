@@ -20,11 +20,15 @@ from tress.base.report import Report
 from tress.kernel import fields
 from tress.methods.portrait.box import Box
 from tress.methods.portrait.depth import StrandDepths, Traced
-from tress.methods.portrait.envelope import Envelope, Head
+from tress.methods.portrait.envelope import Envelope, Head, SolidHead
 from tress.methods.portrait.flow import FlowParams, HairFlow, hair_flow
 from tress.methods.portrait.resample_picture import columns_from_pixels, pixels_from_columns, spread
 
 Array = np.ndarray[Any, Any]
+
+
+BODY_GAP = 0.01
+"""Metres between the back of the neck and hair behind the body."""
 
 
 @dataclass(frozen=True)
@@ -140,13 +144,19 @@ def _filled(surface: Envelope, front: Array, params: VolumeParams) -> tuple[Arra
     """Voxels of hair, and metres from the outer surface inwards."""
     box, head = surface.box, surface.head
     z = box.z[:, None, None]
-    behind_head = np.where(head.seen, head.back, np.minimum(surface.mid, 0.0))
+    behind_head = np.where(head.seen, head.back, _behind_body(head, box))
     top = np.where(surface.hair, front, behind_head)
     between = (z >= surface.back) & (z <= top + 0.5 * box.size) & surface.extended
     body = between | (head.distance <= 0)
     depth_m = fields.distance(~body) * np.float32(box.size)
     reach = np.clip(surface.thickness, params.thinnest, params.thickest)
     return between & (head.distance > 0.3 * box.size) & (depth_m <= reach + box.size), depth_m
+
+
+def _behind_body(head: SolidHead, box: Box) -> float:
+    """z behind the back of the neck: hair that body or clothes hide lies beyond."""
+    neck = head.back[box.y < head.nape]
+    return float(np.nanmin(neck)) - BODY_GAP if np.isfinite(neck).any() else 0.0
 
 
 def _layers(depth_m: Array, head_distance: Array) -> tuple[Array, Array]:
