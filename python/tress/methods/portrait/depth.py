@@ -50,6 +50,7 @@ class DepthParams(Params):
         0.004, low=0.0, high=0.1, unit="m", doc="Width of the known bands at outline and hairline."
     )
     every: int = param(3, low=1, high=50, doc="Every how many vertices are solved for; the others lie between.")
+    unknowns: int = param(60000, low=100, high=10000000, doc="Where there would be more, vertices lie farther apart.")
     neighbour_radius_px: float = param(5.0, low=0.5, high=50.0, unit="px", doc="How far neighbours may be.")
     neighbour_angle: float = param(0.35, low=0.01, high=1.57, unit="rad", doc="How much their directions may differ.")
     neighbour_count: int = param(6, low=1, high=64, doc="Most neighbours of a vertex.")
@@ -98,7 +99,8 @@ def depth(
     if not (alpha > HAIR_ALPHA).any():
         raise NoHairError("No pixel is mostly hair; there is nothing to reconstruct.")
     envelope, xy_from_view = hair_envelope(alpha > HAIR_ALPHA, solid, head=head, voxel=params.voxel), head.xy_from_view
-    keep, offsets = _thinned(traced.offsets, params.every)
+    every = max(params.every, -(-len(traced.points) // params.unknowns))
+    keep, offsets = _thinned(traced.offsets, every)
     points = np.asarray(traced.points, np.float64)[keep]
     occluded = np.asarray(traced.occluded, np.bool_)[keep]
     target, weight = _constraints(points, envelope, xy_from_view, shape, params, depth_strokes)

@@ -28,6 +28,8 @@ DEEPEST = 0.09
 """Metres of hair allowed behind the head."""
 GRAZE = 0.002
 """Metres by which the layer exceeds the gap at the outline, so that the surface there is a thin edge, not a point."""
+LEAST = 0.007
+"""Metres of hair at least, where it is not seen."""
 RESTING = 0.005
 """Metres between the skin and the surface of hair that lies on it."""
 
@@ -105,7 +107,7 @@ def solid_head(positions: Array, triangles: Array, scalp: Array, view_from_head:
     z = box.z[:, None, None]
     inside = (z >= depth.back) & (z <= depth.front)
     signed = (fields.distance(inside) - fields.distance(~inside)) * np.float32(box.size)
-    close = np.abs(signed) < 2.5 * box.size
+    close = np.abs(signed) < 1.6 * box.size
     signed[close] = geom.signed_distances(positions, triangles=triangles, queries=box.centres(close)).distance
     bearing = positions[scalp > 0.5]
     return SolidHead(
@@ -139,7 +141,7 @@ def envelope(hair: Array, solid: Array, *, head: SolidHead, box: Box, xy_from_vi
     front = _smooth(_with_curtain(shell, nearest, head, inner, hair_here, known, box), hair_here)
     front = np.fmax(front, head.front + RESTING / 2)
     extended = _extended(hair_here, hidden, head, box)
-    behind = np.maximum(_harmonic(gap + GRAZE, extended, outline), gap + GRAZE / 2)
+    behind = np.maximum(np.maximum(_harmonic(gap + GRAZE, extended, outline), gap + GRAZE / 2), LEAST)
     back = _surface(reach, behind, box, from_front=False)
     mid = np.clip(_harmonic(nearest, extended, outline), back, np.where(hair_here, front, np.inf))
     return Envelope(box, head, hair_here, extended, outline, front, mid, np.minimum(back, mid), behind)

@@ -30,9 +30,9 @@ class FlowParams(Params):
     """Settings of the dense flow."""
 
     gradient_px: float = param(1.2, low=0.3, high=10.0, unit="px", doc="Blur under which slopes are taken.")
-    finest_mm: float = param(1.5, low=0.1, high=20.0, unit="mm", doc="Blur of the finest average.")
+    finest_mm: float = param(2.0, low=0.1, high=20.0, unit="mm", doc="Blur of the finest average.")
     scales: int = param(4, low=1, high=8, doc="Number of scales, each twice as wide.")
-    clear: float = param(0.6, low=0.01, high=1.0, doc="Elongation of the tensor from which a scale is taken.")
+    clear: float = param(0.7, low=0.01, high=1.0, doc="Elongation of the tensor from which a scale is taken.")
     sense_mm: float = param(6.0, low=0.0, high=100.0, unit="mm", doc="Width over which neighbours agree on the sense.")
     falling: float = param(1.0, low=0.0, high=10.0, doc="Weight of falling against running away from the crown.")
 

@@ -4,6 +4,7 @@ from typing import Any
 
 import cv2
 import numpy as np
+from scipy.ndimage import gaussian_filter1d
 
 from tress.methods.portrait.volume import HairVolume
 
@@ -13,8 +14,12 @@ ON_SHEET = 0.004
 """Metres behind the visible surface within which a visible strand shows the photograph's colour."""
 SOLID_ALPHA = 0.9
 """Pixels with less hair lend no colour to hidden strands."""
-WANDER_PX = 6.0
-"""How far hidden strands look around for their colour, so that neighbours differ as in the photograph."""
+LIKE_NEAR = 0.02
+"""Metres behind the visible surface over which hidden hair takes after the hair before it."""
+OWN_SHARE = 0.4
+"""How much a hidden strand differs from the mean of its height."""
+WIDTHS = 64
+"""Places across the hair from which hidden strands draw their colour."""
 
 
 def strand_colors(
@@ -29,22 +34,49 @@ def strand_colors(
 ) -> tuple[Array, Array]:
     """(N, 3) float32 linear and (N,) float32: a visible vertex takes its own pixel of the matte.
 
-    A hidden one takes the nearest solid hair pixel to where it projects, moved by an offset drawn for its strand.
+    A hidden one takes hair of its height: the mean there, and for each strand a part of what lies at a place across the
+    hair drawn for it, so that roots, tips and locks differ as in the photograph; close behind visible hair, that hair.
     """
     shape = alpha.shape
     pixel = points[:, :2] * [xy_from_view[0, 0], xy_from_view[1, 1]] + xy_from_view[:2, 3]
     count = np.diff(offsets)
-    of_visible = np.repeat(visible, count)
-    sheet = hair.sheet[_index(pixel, shape)]
-    shown = of_visible & (np.abs(points[:, 2] - sheet) < ON_SHEET)
-    drift = np.repeat(random.normal(0, WANDER_PX, (len(count), 2)), count, axis=0)
-    solid = _nearest_solid(alpha, hair)
-    from_row, from_column = (m[_index(pixel + drift, shape)] for m in solid)
-    color = foreground[from_row, from_column].astype(np.float32)
+    behind = hair.sheet[_index(pixel, shape)] - points[:, 2]
+    shown = np.repeat(visible, count) & (np.abs(behind) < ON_SHEET)
+    place = np.repeat(random.integers(0, WIDTHS, len(count)), count)
+    means, across = _by_height(foreground, _solid(alpha, hair))
+    row = np.clip(pixel[:, 1].astype(np.int64), 0, shape[0] - 1)
+    color = (1 - OWN_SHARE) * means[row] + OWN_SHARE * across[row, place]
+    near = np.nan_to_num(np.exp(-np.maximum(behind, 0) / LIKE_NEAR), nan=0.0).astype(np.float32)
+    smooth = cv2.GaussianBlur(np.asarray(foreground, np.float32), (0, 0), 2.0)
+    color = (color + near[:, None] * (smooth[_index(pixel, shape)] - color)).astype(np.float32)
     color[shown] = _bilinear(foreground, pixel[shown])
     opacity = np.ones(len(points), np.float32)
     opacity[shown] = np.clip(_bilinear(alpha, pixel[shown]), 0, 1)
     return color, opacity
+
+
+def _solid(alpha: Array, hair: HairVolume) -> Array:
+    """(H, W) bool: pixels that are all hair, or those that have hair if there is none."""
+    hairy = np.isfinite(hair.sheet)
+    solid = hairy & (alpha > SOLID_ALPHA)
+    return solid if solid.any() else hairy
+
+
+def _by_height(foreground: Array, solid: Array) -> tuple[Array, Array]:
+    """For every row of the photo the mean colour (H, 3) of its hair, and (H, WIDTHS, 3) colours across it.
+
+    Rows without hair take the nearest row's.
+    """
+    height = len(solid)
+    means, across = np.zeros((height, 3), np.float32), np.zeros((height, WIDTHS, 3), np.float32)
+    rows = np.nonzero(solid.any(axis=1))[0]
+    for row in rows:
+        columns = np.nonzero(solid[row])[0]
+        picked = columns[np.linspace(0, len(columns) - 1, WIDTHS).astype(np.int64)]
+        across[row] = foreground[row, picked]
+        means[row] = across[row].mean(axis=0)
+    nearest = rows[np.abs(np.arange(height)[:, None] - rows[None]).argmin(axis=1)] if len(rows) else np.arange(height)
+    return gaussian_filter1d(means[nearest], 4.0, axis=0), across[nearest]
 
 
 def _index(pixel: Array, shape: tuple[int, ...]) -> tuple[Array, Array]:
@@ -64,18 +96,3 @@ def _bilinear(picture: Array, pixel: Array) -> Array:
         np.asarray(picture, np.float32), grid[..., 0], grid[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
     )
     return found.reshape(rows * 8192, *np.shape(picture)[2:])[: len(place)]
-
-
-def _nearest_solid(alpha: Array, hair: HairVolume) -> tuple[Array, Array]:
-    """Row and column (H, W) of the solid hair pixel nearest to each pixel; of any hair pixel if none is solid."""
-    hairy = np.isfinite(hair.sheet)
-    solid = hairy & (alpha > SOLID_ALPHA)
-    source = solid if solid.any() else hairy
-    rows, columns = np.nonzero(source)
-    _, nearest = cv2.distanceTransformWithLabels(
-        (~source).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
-    )
-    labels: Array = np.asarray(nearest)
-    order: Array = np.zeros(labels.max() + 1, np.int64)
-    order[labels[rows, columns]] = np.arange(len(rows))
-    return rows[order[labels]], columns[order[labels]]

@@ -29,6 +29,8 @@ Array = np.ndarray[Any, Any]
 
 BODY_GAP = 0.01
 """Metres between the back of the neck and hair behind the body."""
+NECK = 0.05
+"""Metres below the nape over which the neck is trusted."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +44,7 @@ class VolumeParams(Params):
     layer_share: float = param(0.8, low=0.0, high=1.0, doc="How far directions are turned into the layers.")
     rise: float = param(0.12, low=0.0, high=1.0, doc="Slope by which strands rise through the layers near the scalp.")
     thickest: float = param(0.035, low=0.005, high=0.1, unit="m", doc="Deepest hair that is filled.")
-    seen_alpha: float = param(0.15, low=0.0, high=1.0, doc="Pixels with more hair than this get visible strands.")
+    seen_alpha: float = param(0.3, low=0.0, high=1.0, doc="Pixels with more hair than this get visible strands.")
     flow: FlowParams = field(default_factory=FlowParams)
     thinnest: float = param(0.010, low=0.002, high=0.05, unit="m", doc="Hair that is filled where the layer is thin.")
 
@@ -144,7 +146,7 @@ def _filled(surface: Envelope, front: Array, params: VolumeParams) -> tuple[Arra
     """Voxels of hair, and metres from the outer surface inwards."""
     box, head = surface.box, surface.head
     z = box.z[:, None, None]
-    behind_head = np.where(head.seen, head.back, _behind_body(head, box))
+    behind_head = _behind_head(head, box)
     top = np.where(surface.hair, front, behind_head)
     between = (z >= surface.back) & (z <= top + 0.5 * box.size) & surface.extended
     body = between | (head.distance <= 0)
@@ -153,10 +155,15 @@ def _filled(surface: Envelope, front: Array, params: VolumeParams) -> tuple[Arra
     return between & (head.distance > 0.3 * box.size) & (depth_m <= reach + box.size), depth_m
 
 
-def _behind_body(head: SolidHead, box: Box) -> float:
-    """z behind the back of the neck: hair that body or clothes hide lies beyond."""
-    neck = head.back[box.y < head.nape]
-    return float(np.nanmin(neck)) - BODY_GAP if np.isfinite(neck).any() else 0.0
+def _behind_head(head: SolidHead, box: Box) -> Array:
+    """(R, C) metres: the foremost that hidden hair may be: the head's back; below the nape, the back of the neck.
+
+    The bust that ends the head's mesh says nothing of the body: its open columns have no back.
+    """
+    neck = head.back[(box.y < head.nape) & (box.y > head.nape - NECK)]
+    behind = float(np.nanmin(neck)) - BODY_GAP if np.isfinite(neck).any() else 0.0
+    above = head.seen & (box.y >= head.nape - NECK)[:, None]
+    return np.where(above, head.back, behind)
 
 
 def _layers(depth_m: Array, head_distance: Array) -> tuple[Array, Array]:
