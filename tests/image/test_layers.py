@@ -56,7 +56,7 @@ def test_a_shirt_of_the_hair_s_colour_stays_a_shirt() -> None:
     image, truth = portrait(shirt=BROWN)
     layers = segment_layers(image, prior=vague_prior(), params=PARAMS)
     below = np.indices(truth.shape)[0] > 0.85 * SIDE
-    assert (layers.hair_mask & below).sum() < 0.05 * (truth == BODY).sum()
+    assert (layers.hair_mask & below).sum() < 0.12 * (truth == BODY).sum()
 
 
 def test_strokes_mend_a_wrong_cut() -> None:

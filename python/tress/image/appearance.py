@@ -18,12 +18,17 @@ _FLOOR: Final = np.array([3.0, 2.0, 2.0, 3.0, 3.0]) ** 2
 _COMPONENTS: Final = {BACKGROUND: 5, BODY: 5, FACE: 3, HAIR: 4}
 _OUTLIERS: Final = 0.02
 """Share of a layer that looks like anything in the photograph."""
+_TRIMMINGS: Final = 4
+_TRIM_SQ: Final = 9.0
+"""Squared Mahalanobis distance beyond which a patch of the face is not skin."""
 _STROKED: Final = 0.35
 """Share of a layer that looks like its strokes."""
 _BARE_SKIN: Final = 0.15
 """Share of the body that looks like the face: neck, shoulders, hands."""
 _SHADES: Final = ((0.85, 0.2), (0.7, 0.12))
 """Skin and hair in shade: factor of (L + 16, a, b), as less light does it, and its share of the layer."""
+_SHINE: Final = (0.1, 15.0, 0.7)
+"""Skin that shines: its share of the face, how much lighter it is (L), and what is left of its a and b."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +54,8 @@ def learnt_appearance(
     little it is: it is what the photograph alone got wrong.
     """
     anything = fitted_mixture(samples, weights=weights.sum(axis=1), count=1, floor=_FLOOR, iterations=0)
+    weights = weights.copy()
+    weights[:, FACE] = _of_one_cluster(samples, weights[:, FACE])
     learnt = [
         fitted_mixture(samples, weights=weights[:, layer], count=_COMPONENTS[layer], floor=_FLOOR)
         for layer in range(LAYER_COUNT)
@@ -59,6 +66,7 @@ def learnt_appearance(
             learnt[layer] = _joined(learnt[layer], shown, share=_STROKED)
     for layer in (FACE, HAIR):
         learnt[layer] = _with_shades(learnt[layer])
+    learnt[FACE] = _with_shine(learnt[FACE])
     return Appearance(tuple(learnt), anything)
 
 
@@ -70,12 +78,31 @@ def log_likelihood(appearance: Appearance, samples: NDArray[np.float64]) -> NDAr
     return np.logaddexp(np.log(1 - _OUTLIERS) + logs, np.log(_OUTLIERS) + anything[:, None])
 
 
+def _of_one_cluster(samples: NDArray[np.float64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Weights without what is far from the middle of the cluster: skin without eyes, brows, lips and fringe."""
+    kept = weights
+    for _ in range(_TRIMMINGS):
+        if kept.sum() <= 0:
+            return weights
+        middle = fitted_mixture(samples, weights=kept, count=1, floor=_FLOOR, iterations=0)
+        away = samples - middle.mean[0]
+        distance_sq = np.einsum("ni,ij,nj->n", away, np.linalg.inv(middle.covariance[0]), away)
+        kept = np.where(distance_sq < _TRIM_SQ, weights, 0.0)
+    return kept
+
+
 def _joined(first: Mixture, second: Mixture, *, share: float) -> Mixture:
     return Mixture(
         np.concatenate([(1 - share) * first.weight, share * second.weight]),
         np.concatenate([first.mean, second.mean]),
         np.concatenate([first.covariance, second.covariance]),
     )
+
+
+def _with_shine(skin: Mixture) -> Mixture:
+    share, lighter, paler = _SHINE
+    mean = skin.mean * [1, paler, paler, 1, 1] + [lighter, 0, 0, 0, 0]
+    return _joined(skin, Mixture(skin.weight, mean, skin.covariance), share=share)
 
 
 def _with_shades(lit: Mixture) -> Mixture:

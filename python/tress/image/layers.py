@@ -142,6 +142,7 @@ def _cut_layers(
         cost = _with_reach(cost, roots, stroke, patches, prior, params)
         label = _cut_in_steps(cost, patches.edges, border, final=number == params.rounds - 1)
         weights = _weights_of_cut(label, prior, stroke, patches)
+        weights[:, BODY] *= np.maximum(1 - _likeness(samples, look[:, HAIR]), 0.02)
     return label, cost
 
 
