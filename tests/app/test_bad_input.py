@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from bald_head import bald_head
 from hostile_files import png_header, save_grey, truncated_jpeg
 
 MAKERS = {
@@ -78,3 +79,12 @@ def test_unusable_options(tress, rooms, astronaut, options, message):
 )
 def test_wrong_usage_is_two(tress, arguments):
     assert tress(*arguments).code == 2
+
+
+def test_a_bald_head_has_no_hair(tress, rooms):
+    photos, results = rooms
+    bald_head().save(photos / "bald.png")
+    said = tress("portrait", photos / "bald.png", "-o", results / "out")
+    assert said.code == 2
+    assert said.err.startswith("tress: No hair was found")
+    assert list(results.iterdir()) == []

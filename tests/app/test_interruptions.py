@@ -9,7 +9,18 @@ from pathlib import Path
 
 import pytest
 
-SMALL = ("--strands", "400", "--no-turntable", "--formats", "hair,usdc", "--max-size", "224", "--quiet")
+SMALL = (
+    "--strands",
+    "400",
+    "--no-turntable",
+    "--formats",
+    "hair,usdc",
+    "--max-size",
+    "224",
+    "--set",
+    "depth.voxel=0.006",
+    "--quiet",
+)
 LIMITED = """
 import resource, sys
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv.pop(1)), resource.RLIM_INFINITY))

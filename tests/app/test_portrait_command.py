@@ -14,7 +14,7 @@ from PIL import Image
 from tress.io.record_file import load_record
 from tress.methods.portrait.pipeline import STAGES
 
-SMALL = ("--strands", "400", "--no-turntable", "--formats", "hair", "--max-size", "224")
+SMALL = ("--strands", "400", "--no-turntable", "--formats", "hair", "--max-size", "224", "--set", "depth.voxel=0.006")
 
 
 @pytest.fixture(scope="module")

@@ -33,12 +33,14 @@ def head_stage(
 ) -> PortraitHead:
     """The head of the person in `pixels` (H, W, 3) uint8 sRGB.
 
-    `alpha` (H, W) uint8 of a cut-out stands for the person mask. `face` chooses among several, counted from the left
+    `alpha` (H, W) uint8 of a cut-out bounds the person mask. `face` chooses among several, counted from the left
     from 0; `landmarks` are given by hand. Raises the errors of `read_face`.
     """
     points = read_face(pixels, face=face, landmarks=landmarks, report=report)
     report.progress(0.5)
-    person = person_mask(pixels, landmarks=points) if alpha is None else alpha.astype(np.float32) / np.float32(255)
+    person = person_mask(pixels, landmarks=points)
+    if alpha is not None:
+        person = np.minimum(person, alpha.astype(np.float32) / np.float32(255))
     fitted = fit_head(points, person_mask=person, params=params)
     report.number("eye_distance_px", round(fitted.inter_ocular_px, 1))
     report.number("error_percent_of_eye_distance", round(100 * fitted.error_of_eye_distance, 2))
