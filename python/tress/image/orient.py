@@ -45,6 +45,11 @@ class OrientParams(Params):
     angles: str = choice(
         "between", options=("between", "bins"), doc="Whether angles lie between those of the kernels or on them."
     )
+    negatives: str = choice(
+        "ignored",
+        options=("ignored", "counted"),
+        doc="Whether confidence counts negative responses, as the paper does; they mistake valleys for strands across.",
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,8 +126,14 @@ def _first_round(
 def _oriented(
     image: NDArray[np.float32], near: NDArray[np.bool_], sizes: GaborSizes, params: OrientParams
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    between = params.angles == "between"
-    return orient(image, mask=near, sizes=[sizes], orientations=params.orientations, between_bins=between)
+    return orient(
+        image,
+        mask=near,
+        sizes=[sizes],
+        orientations=params.orientations,
+        between_bins=params.angles == "between",
+        ridges_only=params.negatives == "ignored",
+    )
 
 
 def _scaled(weight: NDArray[np.float32], mask: NDArray[np.bool_], percentile: float) -> NDArray[np.float32]:

@@ -10,6 +10,9 @@ from tress.base.params import Params, param
 from tress.image.orient import OrientationMap
 from tress.kernel.image import trace
 
+_REACH_PX = 1.5
+"""Distance of the flanks for kernels of the paper's size. A ridge between two pixels has no flanks at 1 px."""
+
 
 @dataclass(frozen=True)
 class TraceParams(Params):
@@ -22,7 +25,11 @@ class TraceParams(Params):
     step_px: float = param(0.75, low=0.05, high=8.0, unit="px", doc="Length of a step.")
     max_bend: float = param(float(np.pi / 6), low=0.01, high=1.57, unit="rad", doc="Largest bend of a certain step.")
     reach_px: float = param(
-        0.0, low=0.0, high=16.0, unit="px", doc="Distance of the flanks; 0: a quarter of the kernels' wavelength."
+        0.0,
+        low=0.0,
+        high=16.0,
+        unit="px",
+        doc="Distance of the flanks of a ridge; 0: three eighths of the kernels' wavelength.",
     )
     overlap_px: float = param(
         6.0,
@@ -32,6 +39,9 @@ class TraceParams(Params):
         doc="A strand that runs along an earlier one for longer ends where they met; the paper lets it go on.",
     )
     min_length_px: float = param(6.0, low=0.0, high=1000.0, unit="px", doc="Shorter strands are dropped.")
+    smoothing_px: float = param(
+        2.0, low=0.0, high=50.0, unit="px", doc="Width over which finished strands are smoothed; the paper's are not."
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,9 +108,10 @@ def traced_strands(
         health=params.health,
         step_px=params.step_px,
         max_bend=params.max_bend,
-        reach_px=params.reach_px or orientation.kernel_scale,
+        reach_px=params.reach_px or _REACH_PX * orientation.kernel_scale,
         overlap_px=params.overlap_px,
         min_length_px=params.min_length_px,
+        smoothing_px=params.smoothing_px,
     )
     color = sampled(foreground, points=curves.points)
     opacity = np.clip(sampled(alpha, points=curves.points), 0, 1)

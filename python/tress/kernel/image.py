@@ -1,4 +1,4 @@
-"""Hair in the image plane: oriented filters, seeds and traced curves. All run on every core.
+"""Hair in the image plane: oriented filters, seeds, traced curves, completion. All run on every core.
 
 Images are (H, W) float32, row by row; points are (x, y) in pixels, the first pixel's centre at (0.5, 0.5), y down.
 Every function raises `InputError` for wrong shapes, numbers that are not finite and settings that cannot work.
@@ -58,11 +58,13 @@ def orient(
     sizes: Sequence[GaborSizes] = (GaborSizes(),),
     orientations: int = 32,
     between_bins: bool = True,
+    ridges_only: bool = False,
 ) -> tuple[Array, Array]:
     """Strand direction (H, W) float32 in [0, π), NaN outside `mask`, and its confidence before scaling, 0 outside.
 
     Bright ridges of `image` are found, only inside `mask` (H, W) bool. Of the banks with the given `sizes`, each pixel
-    takes the one that answers most strongly. `between_bins` refines the best kernel's angle by a parabola. Source: Chai
+    takes the one that answers most strongly. `between_bins` refines the best kernel's angle by a parabola.
+    `ridges_only` takes negative responses for none, so that the valleys beside a strand get no confidence. Source: Chai
     et al. 2012, eq. 2 and 3.
 
     >>> stripes = np.tile(np.cos(np.arange(40) * np.pi / 2), (40, 1))
@@ -73,7 +75,7 @@ def orient(
     values = _plane(image, "image")
     inside = _mask(mask, values)
     banks = [_sizes(one) for one in sizes]
-    return _answer(_core.image_orient, values, inside, banks, int(orientations), bool(between_bins))
+    return _answer(_core.image_orient, values, inside, banks, int(orientations), bool(between_bins), bool(ridges_only))
 
 
 def ridge_seeds(angle: Array, *, confidence: Array, high: float, epsilon: float, reach_px: float) -> Array:
@@ -100,6 +102,7 @@ def trace(
     reach_px: float,
     overlap_px: float,
     min_length_px: float,
+    smoothing_px: float,
 ) -> Curves:
     """Curves along the ridges of `confidence` (H, W), in the directions `angle` (H, W), NaN where unknown.
 
@@ -120,8 +123,49 @@ def trace(
         reach_px=float(reach_px),
         overlap_px=float(overlap_px),
         min_length_px=float(min_length_px),
+        smoothing_px=float(smoothing_px),
     )
     return Curves(*found)
+
+
+def complete(
+    picture: Array,
+    *,
+    hole: Array,
+    source: Array,
+    guide: Array | None = None,
+    patch: int,
+    levels: int,
+    rounds: int,
+    seed: int,
+) -> Array:
+    """`picture` (H, W, C) with the pixels of `hole` (H, W) bool copied, patch by patch, from where `source` holds.
+
+    `guide` (H, W, G), known everywhere, takes part in the comparison of patches. What is in the hole does not matter
+    and may be NaN. Raises `InputError` where no whole patch lies in the source. Source: Barnes et al. 2009, Wexler et
+    al. 2007.
+    """
+    given = np.asarray(picture, np.float32)
+    if given.ndim != 3 or given.shape[2] == 0:
+        raise InputError(f"picture is {given.shape}; (H, W, C) was expected.")
+    where = np.asarray(hole)
+    inside, whole = _mask(where, given[..., 0]), np.where(where[..., None], 0, given) if where.ndim == 2 else given
+    parts = [whole] if guide is None else [whole, np.asarray(guide, np.float32)]
+    if guide is not None and (parts[1].ndim != 3 or parts[1].shape[:2] != where.shape):
+        raise InputError(f"guide is {parts[1].shape}; ({where.shape[0]}, {where.shape[1]}, any) was expected.")
+    stacked = checked(np.concatenate(parts, axis=2), name="picture", dtype=np.float32, shape=(None, None, None))
+    filled = _answer(
+        _core.image_complete,
+        stacked,
+        inside,
+        _mask(source, given[..., 0]),
+        guides=stacked.shape[2] - given.shape[2],
+        patch=int(patch),
+        levels=int(levels),
+        rounds=int(rounds),
+        seed=int(seed),
+    )
+    return filled[..., : given.shape[2]]
 
 
 def _answer(function: Callable[..., Any], *arguments: Any, **settings: Any) -> Any:
