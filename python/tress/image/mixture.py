@@ -33,6 +33,7 @@ def fitted_mixture(
     weights = weights.astype(np.float64)
     if weights.sum() <= 0:
         weights, count = np.ones(len(samples)), 1
+    samples, weights = samples[weights > 0], weights[weights > 0]
     share = _first_shares(samples, weights, count)
     mixture = _maximised(samples, share * weights[:, None], floor)
     for _ in range(iterations):
@@ -64,17 +65,21 @@ def _maximised(samples: NDArray[np.float64], share: NDArray[np.float64], floor: 
     share = share[:, mass > 1e-6 * mass.sum()]
     mass = share.sum(axis=0)
     mean = (share.T @ samples) / mass[:, None]
-    away = samples[:, None, :] - mean
-    covariance = np.einsum("nk,nki,nkj->kij", share, away, away) / mass[:, None, None] + np.diag(floor)
-    return Mixture(mass / mass.sum(), mean, covariance)
+    covariance = [_scatter(samples - mean[k], share[:, k]) / mass[k] + np.diag(floor) for k in range(len(mass))]
+    return Mixture(mass / mass.sum(), mean, np.stack(covariance))
+
+
+def _scatter(away: NDArray[np.float64], share: NDArray[np.float64]) -> NDArray[np.float64]:
+    return (away * share[:, None]).T @ away
 
 
 def _component_logs(mixture: Mixture, samples: NDArray[np.float64]) -> NDArray[np.float64]:
-    away = samples[:, None, :] - mixture.mean
-    inverse = np.linalg.inv(mixture.covariance)
-    distance_sq = np.einsum("nki,kij,nkj->nk", away, inverse, away)
+    whitening = np.linalg.inv(np.linalg.cholesky(mixture.covariance))
+    distance_sq = [
+        np.square((samples - mean) @ white.T).sum(axis=1) for mean, white in zip(mixture.mean, whitening, strict=True)
+    ]
     log_volume = np.linalg.slogdet(2 * np.pi * mixture.covariance)[1]
-    return np.log(mixture.weight) - 0.5 * (distance_sq + log_volume)
+    return np.log(mixture.weight) - 0.5 * (np.stack(distance_sq, axis=1) + log_volume)
 
 
 def _log_sum(logs: NDArray[np.float64]) -> NDArray[np.float64]:
