@@ -112,13 +112,13 @@ mod tests {
             inside[shape.index(z, y, x)] = true;
         }
         let found = distance(&inside, shape).expect("fits");
-        for cell in 0..shape.len() {
+        for (cell, distance) in found.iter().enumerate() {
             let place = shape.place(cell).map(|v| v as f64);
             let nearest = marks
                 .iter()
                 .map(|m| (0..3).map(|k| (place[k] - m[k] as f64).powi(2)).sum::<f64>().sqrt())
                 .fold(f64::INFINITY, f64::min);
-            assert!((f64::from(found[cell]) - nearest).abs() < 1e-5);
+            assert!((f64::from(*distance) - nearest).abs() < 1e-5);
         }
     }
 

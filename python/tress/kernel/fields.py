@@ -66,7 +66,7 @@ def diffuse(
         raise InputError(f"weights holds {amounts.min()}; numbers >= 0 were expected.")
     flat, iterations, converged = _core.fields_diffuse(
         np.ascontiguousarray(marks.reshape(box)),
-        np.where(held, np.inf, amounts).reshape(box),
+        np.ascontiguousarray(np.where(held, np.inf, amounts).reshape(box)),
         checked(given.reshape(*box, *channels), name="values", dtype=np.float64, shape=(*box, *channels)),
         float(accuracy),
         int(max_iterations),
@@ -266,7 +266,7 @@ def trace(
         checked(field.head_distance, name="head_distance", dtype=np.float32, shape=(None, None, None)),
         [float(v) for v in field.origin],
         float(field.size),
-        np.where(seen, sheet.depth, np.float32(np.nan)).astype(np.float32),
+        np.ascontiguousarray(np.where(seen, sheet.depth, np.nan), dtype=np.float32),
         checked(sheet.direction, name="sheet.direction", dtype=np.float32, shape=(rows, columns, 2)),
         float(sheet.xy_from_view[0, 0]),
         [float(sheet.xy_from_view[0, 3]), float(sheet.xy_from_view[1, 3])],

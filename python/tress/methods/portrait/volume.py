@@ -92,16 +92,14 @@ def volume(
     surface, matrix = depths.envelope, head.xy_from_view
     box, solid = surface.box, surface.head
     hair = alpha > params.seen_alpha
-    flow = hair_flow(
-        brightness, alpha=alpha, hair=hair, crown_px=_crown(head), px_per_metre=matrix[0, 0], params=params.flow
-    )
+    flow = hair_flow(brightness, hair=hair, crown_px=_crown(head), px_per_metre=matrix[0, 0], params=params.flow)
     front = _front(depths, traced, matrix)
     inside, depth_m = _filled(surface, front, params)
     layer, normal = _layers(depth_m, solid.distance)
     flat, trust = _column_directions(flow, surface, matrix)
     tensors, senses, weights = _data(inside, front, flat, trust, normal, surface, params)
     found = fields.diffuse(
-        np.concatenate([tensors, senses], axis=-1), mask=inside, weights=weights, accuracy=1e-3, max_iterations=200
+        np.concatenate([tensors, senses], axis=-1), mask=inside, weights=weights, accuracy=5e-3, max_iterations=200
     )
     axes = fields.principal_axes(found.values[inside][:, :6], hints=found.values[inside][:, 6:])
     out = np.zeros((*box.shape, 3), np.float32)
