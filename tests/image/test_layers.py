@@ -103,10 +103,21 @@ def test_a_mirrored_photograph_has_mirrored_layers() -> None:
 
 def test_a_picture_of_one_colour_follows_the_prior() -> None:
     prior = np.full((64, 64, 4), 0.01, np.float32)
-    prior[:32, :, HAIR] = 1
+    prior[:32, :, BACKGROUND] = 1
     prior[32:, :, FACE] = 1
     layers = segment_layers(np.full((64, 64, 3), 128, np.uint8), prior=prior, params=LayerParams(superpixels=64))
-    assert (layers.label[:24] == HAIR).all() and (layers.label[40:] == FACE).all()
+    assert (layers.label[:24] == BACKGROUND).all() and (layers.label[40:] == FACE).all()
+
+
+def test_hair_that_looks_like_the_face_is_a_bald_head_unless_a_stroke_says_otherwise() -> None:
+    prior = np.full((64, 64, 4), 0.01, np.float32)
+    prior[:32, :, HAIR] = 1
+    prior[32:, :, FACE] = 1
+    image, params = np.full((64, 64, 3), SKIN, np.uint8), LayerParams(superpixels=64)
+    assert not segment_layers(image, prior=prior, params=params).hair_mask.any()
+    strokes = np.full((64, 64), NO_STROKE, np.uint8)
+    strokes[10, 10:50] = HAIR
+    assert segment_layers(image, prior=prior, strokes=strokes, params=params).hair_mask[:24].mean() > 0.9
 
 
 def test_wrong_shapes_are_refused() -> None:

@@ -32,6 +32,10 @@ from tress.image.superpixels import Superpixels, mean_over, superpixels
 
 _NEVER = 1e5
 _LEAST_PRIOR = 1e-4
+_ALIKE = 1.0
+"""Logarithm of likelihood by which hair may explain its own seeds better than the face does and still be like it."""
+_BARE = (0.42, 0.58)
+"""Share of hair's seeds that look like the face: up to the first it is hair, from the second on the head is bald."""
 
 
 @dataclass(frozen=True)
@@ -132,6 +136,7 @@ def _cut_layers(
 ) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
     samples = features(patches)
     border = _border_cost(patches, params)
+    prior = _without_bare_hair(samples, prior, stroke, patches)
     weights = _first_weights(samples, prior, stroke, patches)
     label = prior.argmax(axis=1).astype(np.uint8)
     roots = weights[:, HAIR].copy()
@@ -146,12 +151,30 @@ def _cut_layers(
     return label, cost
 
 
+def _sure_places(prior: NDArray[np.float64], stroke: NDArray[np.uint8], patches: Superpixels) -> NDArray[np.float64]:
+    return _with_strokes(patches.area[:, None].astype(np.float64) * np.maximum(prior - 0.4, 0) ** 2, stroke, patches)
+
+
+def _without_bare_hair(
+    samples: NDArray[np.float64], prior: NDArray[np.float64], stroke: NDArray[np.uint8], patches: Superpixels
+) -> NDArray[np.float64]:
+    """The prior, but with next to no hair in it where the places of surest hair look like the face: a bald head."""
+    seeds = _sure_places(prior, stroke, patches)
+    if (stroke == HAIR).any() or seeds[:, HAIR].sum() <= 0:
+        return prior
+    look = log_likelihood(learnt_appearance(samples, weights=seeds, strokes=stroke), samples)
+    like_face = _share(look + _ALIKE * np.eye(LAYER_COUNT)[FACE], FACE, (HAIR,))
+    bare = float(np.average(like_face, weights=seeds[:, HAIR]))
+    left = np.interp(bare, _BARE, (1.0, _LEAST_PRIOR))
+    prior = prior * np.where(np.arange(LAYER_COUNT) == HAIR, left, 1.0)
+    return prior / prior.sum(axis=1, keepdims=True)
+
+
 def _first_weights(
     samples: NDArray[np.float64], prior: NDArray[np.float64], stroke: NDArray[np.uint8], patches: Superpixels
 ) -> NDArray[np.float64]:
     """Seeds of the layers: the places where the prior is surest, less what looks like another layer's surer seeds."""
-    seeds = patches.area[:, None].astype(np.float64) * np.maximum(prior - 0.4, 0) ** 2
-    seeds = _with_strokes(seeds, stroke, patches)
+    seeds = _sure_places(prior, stroke, patches)
     look = log_likelihood(learnt_appearance(samples, weights=seeds, strokes=stroke), samples)
     seeds[:, HAIR] *= _share(look, HAIR, (FACE, BACKGROUND))
     look = log_likelihood(learnt_appearance(samples, weights=seeds, strokes=stroke), samples)
