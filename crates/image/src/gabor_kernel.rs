@@ -7,7 +7,7 @@ use crate::error::ImageError;
 /// Largest size of a kernel in pixels.
 const LARGEST_PX: f64 = 64.0;
 /// Standard deviations after which a kernel is cut off.
-const CUT: f64 = 3.0;
+const CUT: f64 = 2.5;
 
 /// Sizes of the kernels in pixels and the number of orientations over [0, π).
 #[derive(Clone, Copy, Debug, PartialEq)]

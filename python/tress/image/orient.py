@@ -40,7 +40,7 @@ class OrientParams(Params):
     white_percentile: float = param(
         97.0, low=50.0, high=100.0, unit="%", doc="Share of the hair's pixels whose confidence is at most 1."
     )
-    margin_px: int = param(2, low=0, high=64, unit="px", doc="How far beyond the mask orientation is measured.")
+    margin_px: int = param(6, low=0, high=64, unit="px", doc="How far beyond the mask orientation is measured.")
     polarity: str = choice("bright", options=("bright", "dark", "both"), doc="Which ridges of brightness are strands.")
     angles: str = choice(
         "between", options=("between", "bins"), doc="Whether angles lie between those of the kernels or on them."
