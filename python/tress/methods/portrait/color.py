@@ -6,18 +6,20 @@ import numpy as np
 from numpy.typing import NDArray
 from skimage.metrics import structural_similarity
 
-from tress.base.color import linear_to_srgb8
+from tress.base.color import linear_to_srgb8, srgb_to_linear
 from tress.base.params import Params, param
 from tress.base.report import Report
 from tress.image.matte import Matte
 from tress.model.evaluate import Scene
 from tress.render.fit_colors import fit_vertex_colors
 from tress.render.flat_scene import FlatScene, flat_scene
-from tress.render.gbuffer import GBuffer, rasterise
+from tress.render.gbuffer import GBuffer, hair_coverage, rasterise
 from tress.render.picture import over, premultiplied_rgba, srgb_rgba
 from tress.render.styles.photo import PhotoStyle
 
 _MOSTLY_HAIR = 0.5
+_LEAST_COVERAGE = 0.05
+_BRIGHTEST = 1.5
 _LUMA = np.array([0.299, 0.587, 0.114])
 
 
@@ -60,11 +62,26 @@ def color_stage(
     flat = flat_scene(scene)
     gbuffer = _seen(flat, pixels.shape[:2], xy_from_world, params)
     report.progress(0.3)
-    weight = np.where(matte.alpha > params.least_alpha, matte.alpha, 0).astype(np.float32)
+    coverage = hair_coverage(gbuffer)
     color = fit_vertex_colors(
-        gbuffer, colors=flat.color, target_linear=matte.foreground, weight=weight, iterations=params.iterations
+        gbuffer,
+        colors=flat.color,
+        target_linear=_target(pixels, matte, coverage),
+        weight=np.where(matte.alpha > params.least_alpha, coverage, 0).astype(np.float32),
+        iterations=params.iterations,
     )
     return _compared(color, gbuffer, pixels, matte, report)
+
+
+def _target(pixels: NDArray[np.uint8], matte: Matte, coverage: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Colour (H, W, 3) that the strands should show, linear.
+
+    Where there is mostly hair: the colour with which the strands, covering as much of the pixel as they do, give the
+    photo's pixel over the other layers. At soft edges: the matte's own colour of hair, without the background's.
+    """
+    seen = np.maximum(coverage, _LEAST_COVERAGE)[..., None]
+    exact = (srgb_to_linear(pixels) - (1 - coverage[..., None]) * matte.background) / seen
+    return np.where((matte.alpha > _MOSTLY_HAIR)[..., None], np.clip(exact, 0, _BRIGHTEST), matte.foreground)
 
 
 def _seen(flat: FlatScene, shape: tuple[int, int], xy_from_world: NDArray[np.float64], params: ColorParams) -> GBuffer:

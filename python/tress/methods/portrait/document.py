@@ -21,8 +21,10 @@ from tress.model.recipe import Recipe, flat_parameters
 from tress.model.strands import Strands
 from tress.model.texture import Texture
 
-STRAND_RADIUS_M = 4e-5
-"""Half the width of a human hair, 0.08 mm."""
+HIDDEN_RADIUS_M = 1e-4
+"""Half the width of a strand that stands for the two or three hairs of 0.08 mm around it."""
+VISIBLE_RADIUS_PX = 0.55
+"""Half the width of a strand on the photo's surface: neighbours, a pixel apart, close up and leave no gap."""
 
 
 def portrait_document(work: Work) -> Document:
@@ -82,10 +84,16 @@ def hair_record(fitted: FittedHead, *, grown: GrownHair, color: NDArray[np.float
         point_attributes={
             "color": color,
             "alpha": grown.alpha,
-            "radius": np.full(len(points), STRAND_RADIUS_M, np.float32),
+            "radius": strand_radius_m(grown, px_per_metre=fitted.px_per_metre),
         },
         strand_attributes={"visible": grown.visible},
     )
+
+
+def strand_radius_m(grown: GrownHair, *, px_per_metre: float) -> NDArray[np.float32]:
+    """Half the width (N,) float32 at every point: a pixel of the photo covers what it shows, hidden strands are thin."""
+    radius_m = np.where(grown.visible, VISIBLE_RADIUS_PX / px_per_metre, HIDDEN_RADIUS_M)
+    return np.repeat(radius_m, np.diff(grown.offsets)).astype(np.float32)
 
 
 def in_head(points_in_view: NDArray[np.floating], view_from_head: NDArray[np.float64]) -> NDArray[np.float64]:
