@@ -1,4 +1,4 @@
-"""The stage `color`: colours of the strands with which the hair looks as in the photograph."""
+"""The stage `color`: opacities and colours of the strands with which the hair looks as in the photograph."""
 
 from dataclasses import dataclass, replace
 
@@ -10,25 +10,32 @@ from tress.base.color import linear_to_srgb8, srgb_to_linear
 from tress.base.params import Params, param
 from tress.base.report import Report
 from tress.image.matte import Matte
+from tress.methods.portrait.opacity import with_fitted_opacity
 from tress.model.evaluate import Scene
 from tress.render.fit_colors import fit_vertex_colors
-from tress.render.flat_scene import FlatScene, flat_scene
-from tress.render.gbuffer import GBuffer, hair_coverage, rasterise
+from tress.render.flat_scene import flat_scene
+from tress.render.gbuffer import GBuffer, hair_coverage
 from tress.render.picture import over, premultiplied_rgba, srgb_rgba
 from tress.render.styles.photo import PhotoStyle
 
 _MOSTLY_HAIR = 0.5
 _LEAST_COVERAGE = 0.05
 _BRIGHTEST = 1.5
+_RELATIVE = 4.0
+"""How much faster the reach around the matte's colour grows with that colour than it starts."""
 _LUMA = np.array([0.299, 0.587, 0.114])
 
 
 @dataclass(frozen=True)
 class ColorParams(Params):
-    """Settings of the colour fit and of the picture that it is held against."""
+    """Settings of the fit of opacities and colours, and of the picture that it is held against."""
 
     iterations: int = param(12, low=0, high=200, doc="Rounds of the fit; 0 keeps the colours that strands grew with.")
-    least_alpha: float = param(0.3, low=0.0, high=1.0, doc="Pixels with less hair than this say nothing on its colour.")
+    opacity_rounds: int = param(1, low=0, high=10, doc="Rounds in which opacities are fitted to the matte.")
+    own_color: float = param(
+        0.08, low=0.0, high=10.0, doc="How far colours may stray from the matte's, so that the picture is the photo's."
+    )
+    least_alpha: float = param(0.1, low=0.0, high=1.0, doc="Pixels with less hair than this say nothing on its colour.")
     min_width_px: float = param(1.0, low=0.1, high=8.0, unit="px", doc="Least width of a strand in pictures.")
     strand_bias: float = param(0.002, low=0.0, high=0.02, unit="m", doc="How far hair may lie in the skin and show.")
 
@@ -37,12 +44,13 @@ class ColorParams(Params):
 class ColoredHair:
     """The hair as the photo shows it.
 
-    `color` (N, 3) float32 linear of every vertex; `rerender` (H, W, 4) uint8 sRGB, straight alpha, the hair alone from
-    the photo's view; `composite` (H, W, 3) uint8 sRGB, the same over the photo's other layers; how like the photo that
-    is where there is hair, `psnr` in dB and `ssim`.
+    `color` (N, 3) float32 linear and `alpha` (N,) float32 in [0, 1] of every vertex; `rerender` (H, W, 4) uint8
+    sRGB, straight alpha, the hair alone from the photo's view; `composite` (H, W, 3) uint8 sRGB, the same over the
+    photo's other layers; how like the photo that is where there is hair, `psnr` in dB and `ssim`.
     """
 
     color: NDArray[np.float32]
+    alpha: NDArray[np.float32]
     rerender: NDArray[np.uint8]
     composite: NDArray[np.uint8]
     psnr: float
@@ -59,40 +67,41 @@ def color_stage(
     report: Report,
 ) -> ColoredHair:
     """Colours for the strands of `scene` (with the head, which hides hair) seen by the photo's camera (3, 4)."""
-    flat = flat_scene(scene)
-    gbuffer = _seen(flat, pixels.shape[:2], xy_from_world, params)
-    report.progress(0.3)
+    gbuffer = with_fitted_opacity(
+        flat_scene(scene),
+        matte_alpha=matte.alpha,
+        xy_from_world=xy_from_world,
+        strand_bias_m=params.strand_bias,
+        min_width_px=params.min_width_px,
+        rounds=params.opacity_rounds,
+    )
+    report.progress(0.4)
     coverage = hair_coverage(gbuffer)
     color = fit_vertex_colors(
         gbuffer,
-        colors=flat.color,
-        target_linear=_target(pixels, matte, coverage),
+        colors=gbuffer.scene.color,
+        target_linear=_target(pixels, matte, coverage, params.own_color),
         weight=np.where(matte.alpha > params.least_alpha, coverage, 0).astype(np.float32),
         iterations=params.iterations,
     )
     return _compared(color, gbuffer, pixels, matte, report)
 
 
-def _target(pixels: NDArray[np.uint8], matte: Matte, coverage: NDArray[np.float32]) -> NDArray[np.float32]:
+def _target(
+    pixels: NDArray[np.uint8], matte: Matte, coverage: NDArray[np.float32], own_color: float
+) -> NDArray[np.float32]:
     """Colour (H, W, 3) that the strands should show, linear.
 
     Where there is mostly hair: the colour with which the strands, covering as much of the pixel as they do, give the
-    photo's pixel over the other layers. At soft edges: the matte's own colour of hair, without the background's.
+    photo's pixel over the other layers, but near the matte's own colour of hair, lest the background tint it. At soft
+    edges: the matte's colour.
     """
+    own = matte.foreground
     seen = np.maximum(coverage, _LEAST_COVERAGE)[..., None]
     exact = (srgb_to_linear(pixels) - (1 - coverage[..., None]) * matte.background) / seen
-    return np.where((matte.alpha > _MOSTLY_HAIR)[..., None], np.clip(exact, 0, _BRIGHTEST), matte.foreground)
-
-
-def _seen(flat: FlatScene, shape: tuple[int, int], xy_from_world: NDArray[np.float64], params: ColorParams) -> GBuffer:
-    return rasterise(
-        flat,
-        xy_from_world=xy_from_world,
-        width=shape[1],
-        height=shape[0],
-        strand_bias_m=params.strand_bias,
-        min_width_px=params.min_width_px,
-    )
+    reach = own_color * (1 + _RELATIVE * own)
+    near = np.clip(own + np.clip(exact - own, -reach, reach), 0, _BRIGHTEST)
+    return np.where((matte.alpha > _MOSTLY_HAIR)[..., None], near, own).astype(np.float32)
 
 
 def _compared(
@@ -107,7 +116,7 @@ def _compared(
     report.number("psnr_db", round(psnr, 2))
     report.number("ssim", round(ssim, 4))
     report.number("covered", round(float(hair[..., 3][mask].mean()), 4) if mask.any() else 0.0)
-    return ColoredHair(color, srgb_rgba(hair), composite, psnr, ssim)
+    return ColoredHair(color, gbuffer.scene.alpha, srgb_rgba(hair), composite, psnr, ssim)
 
 
 def _likeness(picture: NDArray[np.uint8], photo: NDArray[np.uint8], mask: NDArray[np.bool_]) -> tuple[float, float]:

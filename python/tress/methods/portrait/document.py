@@ -34,7 +34,7 @@ def portrait_document(work: Work) -> Document:
     return Document(
         {
             "head": head_record(head.fitted, texture=_texture(work)),
-            "hair": hair_record(head.fitted, grown=work["strands"], color=colored.color),
+            "hair": hair_record(head.fitted, grown=work["strands"], color=colored.color, alpha=colored.alpha),
             "photo": photo_camera(head.fitted, shape=work.pixels.shape[:2]),
             "recipe": Recipe(
                 method="portrait",
@@ -48,7 +48,7 @@ def portrait_document(work: Work) -> Document:
 
 def bare_scene(fitted: FittedHead, *, grown: GrownHair) -> Scene:
     """The strands in the colours that they grew with, and the head without texture: what visibility needs."""
-    hair = hair_record(fitted, grown=grown, color=grown.color)
+    hair = hair_record(fitted, grown=grown, color=grown.color, alpha=grown.alpha)
     return Scene(strands={"hair": hair}, meshes={"head": head_record(fitted).mesh})
 
 
@@ -75,15 +75,17 @@ def head_record(fitted: FittedHead, *, texture: NDArray[np.uint8] | None = None)
     )
 
 
-def hair_record(fitted: FittedHead, *, grown: GrownHair, color: NDArray[np.float32]) -> Strands:
-    """The grown strands in the head frame, in `color` (N, 3) linear."""
+def hair_record(
+    fitted: FittedHead, *, grown: GrownHair, color: NDArray[np.float32], alpha: NDArray[np.float32]
+) -> Strands:
+    """The grown strands in the head frame, in `color` (N, 3) linear and opacity `alpha` (N,)."""
     points = in_head(grown.points, fitted.view_from_head).astype(np.float32)
     return Strands(
         points=points,
         offsets=grown.offsets,
         point_attributes={
             "color": color,
-            "alpha": grown.alpha,
+            "alpha": alpha,
             "radius": strand_radius_m(grown, px_per_metre=fitted.px_per_metre),
         },
         strand_attributes={"visible": grown.visible},
@@ -91,7 +93,7 @@ def hair_record(fitted: FittedHead, *, grown: GrownHair, color: NDArray[np.float
 
 
 def strand_radius_m(grown: GrownHair, *, px_per_metre: float) -> NDArray[np.float32]:
-    """Half the width (N,) float32 at every point: a pixel of the photo covers what it shows, hidden strands are thin."""
+    """Half the width (N,) float32 at every point: what shows is as wide as a pixel, the rest thin."""
     radius_m = np.where(grown.visible, VISIBLE_RADIUS_PX / px_per_metre, HIDDEN_RADIUS_M)
     return np.repeat(radius_m, np.diff(grown.offsets)).astype(np.float32)
 
