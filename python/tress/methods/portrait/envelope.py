@@ -26,11 +26,11 @@ MARGIN = 0.012
 """Metres of air around the hair in the box."""
 DEEPEST = 0.09
 """Metres of hair allowed behind the head."""
-GRAZE = 0.002
+GRAZE = 0.003
 """Metres by which the layer exceeds the gap at the outline, so that the surface there is a thin edge, not a point."""
 LEAST = 0.007
 """Metres of hair at least, where it is not seen."""
-RESTING = 0.005
+RESTING = 0.008
 """Metres between the skin and the surface of hair that lies on it."""
 
 
@@ -139,7 +139,7 @@ def envelope(hair: Array, solid: Array, *, head: SolidHead, box: Box, xy_from_vi
     shell = _surface(reach, np.maximum(thickness, gap + GRAZE / 2), box, from_front=True)
     nearest = np.minimum(box.z[reach.argmin(axis=0)], 0.0)
     front = _smooth(_with_curtain(shell, nearest, head, inner, hair_here, known, box), hair_here)
-    front = np.fmax(front, head.front + RESTING / 2)
+    front = np.fmax(front, head.front + 0.4 * RESTING)
     extended = _extended(hair_here, hidden, head, box)
     behind = np.maximum(np.maximum(_harmonic(gap + GRAZE, extended, outline), gap + GRAZE / 2), LEAST)
     back = _surface(reach, behind, box, from_front=False)

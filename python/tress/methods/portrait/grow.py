@@ -29,6 +29,7 @@ class GrowParams(Params):
     """Settings of the strands."""
 
     count: int = param(50000, low=100, high=1000000, doc="Most strands.")
+    front_density: float = param(2.0, low=0.1, high=100.0, doc="Hidden strands before the head for one behind it.")
     visible_share: float = param(0.4, low=0.0, high=1.0, doc="Most of them that start at the visible surface.")
     voxel_cap: int = param(60, low=1, high=60000, doc="Most strands in a voxel.")
     pixel_cap: int = param(8, low=1, high=1000, doc="Most visible strands in a pixel.")
@@ -133,8 +134,14 @@ def _visible_seeds(depth: Array, xy_from_view: Array, params: GrowParams, random
 
 
 def _hidden_seeds(hair: HairVolume, count: int, params: GrowParams, random: np.random.Generator) -> Array:
-    """Random points of the volume behind the visible surface."""
-    below = hair.box.z[:, None, None] < np.where(np.isfinite(hair.front), hair.front - params.sheet_depth, np.inf)
-    centres = hair.box.centres(hair.inside & below)
-    points = centres[random.integers(0, len(centres), count)] + hair.voxel * random.uniform(-0.5, 0.5, (count, 3))
+    """Random points of the volume behind the visible surface, denser in its front half."""
+    z = hair.box.z[:, None, None]
+    inside = hair.inside & (z < np.where(np.isfinite(hair.front), hair.front - params.sheet_depth, np.inf))
+    centres = hair.box.centres(inside)
+    before = (z > hair.mid) & np.isfinite(hair.front)
+    chance = np.cumsum(np.where(before[inside], params.front_density, 1.0))
+    if len(centres) == 0:
+        return np.zeros((0, 5))
+    chosen = np.searchsorted(chance, random.uniform(0, chance[-1], count), side="right")
+    points = centres[np.minimum(chosen, len(centres) - 1)] + hair.voxel * random.uniform(-0.5, 0.5, (count, 3))
     return np.concatenate([points, np.full((count, 2), params.longest)], axis=1)
