@@ -67,7 +67,7 @@ def with_fitted_opacity(
     return gbuffer
 
 
-def _factor(wanted: NDArray[np.float32], coverage: NDArray[np.float32]) -> NDArray[np.float32]:
+def _factor(wanted: NDArray[np.float32], coverage: NDArray[np.float32]) -> NDArray[np.floating]:
     """(H, W): by how much the optical depth of a pixel's strands should change."""
     target = -np.log1p(-np.clip(wanted, 0, _SOLID))
     present = -np.log1p(-np.clip(coverage, 0, _MOST_SEEN))
