@@ -9,6 +9,7 @@ from skimage.metrics import structural_similarity
 from tress.base.color import linear_to_srgb8, srgb_to_linear
 from tress.base.params import Params, param
 from tress.base.report import Report
+from tress.image.labels import BODY, FACE
 from tress.image.matte import Matte
 from tress.methods.portrait.opacity import with_fitted_opacity
 from tress.model.evaluate import Scene
@@ -19,6 +20,7 @@ from tress.render.picture import over, premultiplied_rgba, srgb_rgba
 from tress.render.styles.photo import PhotoStyle
 
 _MOSTLY_HAIR = 0.5
+_NO_HAIR = 0.02
 _LEAST_COVERAGE = 0.05
 _BRIGHTEST = 1.5
 _RELATIVE = 4.0
@@ -62,14 +64,20 @@ def color_stage(
     *,
     pixels: NDArray[np.uint8],
     matte: Matte,
+    label: NDArray[np.uint8],
     xy_from_world: NDArray[np.float64],
     params: ColorParams,
     report: Report,
 ) -> ColoredHair:
-    """Colours for the strands of `scene` (with the head, which hides hair) seen by the photo's camera (3, 4)."""
+    """Colours for the strands of `scene` (with the head, which hides hair) seen by the photo's camera (3, 4).
+
+    `label` (H, W): the layers, of which face and body may be before hair that the matte does not show.
+    """
+    covered = np.isin(label, (BODY, FACE)) & (matte.alpha < _NO_HAIR)
     gbuffer = with_fitted_opacity(
         flat_scene(scene),
         matte_alpha=matte.alpha,
+        covered=covered,
         xy_from_world=xy_from_world,
         strand_bias_m=params.strand_bias,
         min_width_px=params.min_width_px,
@@ -84,7 +92,7 @@ def color_stage(
         weight=np.where(matte.alpha > params.least_alpha, coverage, 0).astype(np.float32),
         iterations=params.iterations,
     )
-    return _compared(color, gbuffer, pixels, matte, report)
+    return _compared(color, gbuffer, pixels, matte, covered, report)
 
 
 def _target(
@@ -105,11 +113,17 @@ def _target(
 
 
 def _compared(
-    color: NDArray[np.float32], gbuffer: GBuffer, pixels: NDArray[np.uint8], matte: Matte, report: Report
+    color: NDArray[np.float32],
+    gbuffer: GBuffer,
+    pixels: NDArray[np.uint8],
+    matte: Matte,
+    covered: NDArray[np.bool_],
+    report: Report,
 ) -> ColoredHair:
     """The hair alone and over the photo's other layers, and how like the photo that is."""
     colored = replace(gbuffer, scene=replace(gbuffer.scene, color=color))
     hair = premultiplied_rgba(colored, style=PhotoStyle(), hold_out_meshes=True)
+    hair[covered] = 0
     composite = linear_to_srgb8(over(hair, background=matte.background))
     mask = matte.alpha > _MOSTLY_HAIR
     psnr, ssim = _likeness(composite, pixels, mask)

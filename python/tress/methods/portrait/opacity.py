@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tress.kernel import raster
+from tress.kernel.geom import rays_blocked
 from tress.render.flat_scene import FlatScene
 from tress.render.gbuffer import GBuffer, hair_coverage, rasterise
 
@@ -34,6 +35,7 @@ def with_fitted_opacity(
     flat: FlatScene,
     *,
     matte_alpha: NDArray[np.float32],
+    covered: NDArray[np.bool_],
     xy_from_world: NDArray[np.float64],
     strand_bias_m: float,
     min_width_px: float,
@@ -41,12 +43,16 @@ def with_fitted_opacity(
 ) -> GBuffer:
     """What the photo's camera (3, 4) sees of the scene, in opacities that give the coverage `matte_alpha` (H, W).
 
-    The new opacities (N,) are those of the GBuffer's scene. Costs `rounds + 1` rasterisations.
+    The new opacities (N,) are those of the GBuffer's scene. Hair behind the head, or in pixels `covered` (H, W) by face
+    or body, does not show, and keeps its own. Costs `rounds + 1` rasterisations.
     """
     pixel = _pixels(flat, matte_alpha.shape, xy_from_world)
     wanted = matte_alpha.ravel()[pixel]
     solid = wanted > _SOLID
-    alpha = np.where(solid, 1.0, 1 - (1 - np.minimum(wanted, _SOLID)) ** (1 / _LAYERS))
+    kept = solid | covered.ravel()[pixel]
+    kept[~kept] = _behind_head(flat, np.flatnonzero(~kept), xy_from_world)
+    own = np.where(solid, 1.0, flat.alpha)
+    alpha = np.where(kept, own, 1 - (1 - np.minimum(wanted, _SOLID)) ** (1 / _LAYERS))
 
     def seen() -> GBuffer:
         height, width = matte_alpha.shape
@@ -62,7 +68,7 @@ def with_fitted_opacity(
     gbuffer = seen()
     for _ in range(rounds):
         factor = _factor(matte_alpha, hair_coverage(gbuffer)).ravel()[pixel]
-        alpha = np.where(solid, 1.0, 1 - (1 - np.minimum(alpha, 0.999)) ** factor)
+        alpha = np.where(kept, own, 1 - (1 - np.minimum(alpha, 0.999)) ** factor)
         gbuffer = seen()
     return gbuffer
 
@@ -72,7 +78,15 @@ def _factor(wanted: NDArray[np.float32], coverage: NDArray[np.float32]) -> NDArr
     target = -np.log1p(-np.clip(wanted, 0, _SOLID))
     present = -np.log1p(-np.clip(coverage, 0, _MOST_SEEN))
     smooth_target, smooth_present = (cv2.GaussianBlur(depth, (0, 0), _BLUR_PX) + _FLOOR for depth in (target, present))
-    return np.clip(smooth_target / smooth_present, 1 / _LARGEST_FACTOR, _LARGEST_FACTOR)
+    return np.clip(smooth_target / smooth_present, 1 / _LARGEST_FACTOR, _LARGEST_FACTOR).astype(np.float32)
+
+
+def _behind_head(flat: FlatScene, points: NDArray[np.intp], xy_from_world: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which of the `points` (indices) have a mesh between them and the camera."""
+    towards = np.cross(xy_from_world[1, :3], xy_from_world[0, :3])
+    directions = np.broadcast_to(towards / np.linalg.norm(towards), (len(points), 3))
+    blocked = rays_blocked(flat.positions, triangles=flat.triangles, origins=flat.points[points], directions=directions)
+    return np.asarray(blocked, np.bool_)
 
 
 def _pixels(flat: FlatScene, shape: tuple[int, ...], xy_from_world: NDArray[np.float64]) -> NDArray[np.intp]:

@@ -200,6 +200,7 @@ def run_color(work: Work, report: Report) -> ColoredHair:
         bare_scene(fitted, grown=work["strands"]),
         pixels=work.pixels,
         matte=work["matte"],
+        label=work["layers"].label,
         xy_from_world=camera.xy_from_world,
         params=work.params.color,
         report=report,
