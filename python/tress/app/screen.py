@@ -85,7 +85,7 @@ class _Listener:
             self._bars.update(self._open[-1], completed=event.fraction)
 
     def _warning(self, event: Event) -> None:
-        self._errors.print(Text(f"tress: {event.stage}: {event.message}", style="yellow"))
+        self._errors.print(Text(f"tress: {event.stage}: {event.message}", style="yellow"), soft_wrap=True)
 
     def _end(self, _event: Event) -> None:
         task = self._open.pop()

@@ -26,6 +26,7 @@ from tress.model.evaluate import evaluate
 from tress.model.strands import Strands
 from tress.render.flat_scene import FlatScene, flat_scene
 from tress.render.gbuffer import rasterise
+from tress.render.occlusion import prepared
 from tress.render.picture import premultiplied_rgba, srgb_rgb
 from tress.render.preview import contact_sheet
 from tress.render.styles.photo import PhotoStyle
@@ -60,7 +61,7 @@ def deliver(
     with report.stage("formats"):
         deliver_formats(reconstruction, folder, formats=formats)
         deliver_arrays(reconstruction, folder)
-    scene = flat_scene(evaluate(reconstruction.document))
+    scene = prepared(flat_scene(evaluate(reconstruction.document)))
     with report.stage("preview"):
         write_picture(preview(reconstruction, scene), folder / "preview.png")
     if turntable:

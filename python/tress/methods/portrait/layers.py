@@ -28,7 +28,7 @@ def layers_stage(
     """Layers of the photograph `image` (H, W, 3) uint8 sRGB, automatic but for what `strokes` (H, W) settle.
 
     `person` (H, W) float32 in [0, 1] is the person mask. Reports the share of the picture that is hair, and
-    `hair_in_faces`, its area in face heights squared; warns where that is less than `LEAST_HAIR`.
+    `hair_in_faces`, its area in face heights squared.
     """
     frame = face_frame(landmarks)
     prior = location_prior(landmarks, person=person)
@@ -45,8 +45,6 @@ def layers_stage(
     in_faces = area / frame.height_px**2
     report.number("hair_share", area / layers.label.size)
     report.number("hair_in_faces", in_faces)
-    if in_faces < LEAST_HAIR:
-        report.warn("next to no hair was found; a stroke on the hair would help if there is some.")
     return layers
 
 

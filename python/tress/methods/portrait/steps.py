@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from tress.base.color import linear_to_srgb8
 from tress.base.errors import NoHairError
 from tress.base.report import Report
-from tress.image.labels import BODY, FACE, HAIR
+from tress.image.labels import BODY, FACE
 from tress.image.layers import Layers
 from tress.image.matte import Matte
 from tress.image.orient import OrientationMap, brightness
@@ -20,7 +20,6 @@ from tress.methods.portrait.head import PortraitHead, head_stage
 from tress.methods.portrait.layers import has_hair, layers_stage
 from tress.methods.portrait.matte import matte_stage
 from tress.methods.portrait.orientation import orientation
-from tress.methods.portrait.skin_likeness import skin_likeness
 from tress.methods.portrait.stage import Work
 from tress.methods.portrait.trace import trace
 from tress.methods.portrait.volume import HairVolume, volume
@@ -63,18 +62,9 @@ def run_layers(work: Work, report: Report) -> Layers:
         params=work.params.layers,
         report=report,
     )
-    if not has_hair(layers, landmarks=head.landmarks) or _is_bald(work, layers):
+    if not has_hair(layers, landmarks=head.landmarks):
         raise NoHairError("No hair was found in the photo; if there is some, mark it with --strokes.")
     return layers
-
-
-def _is_bald(work: Work, layers: Layers) -> bool:
-    """Whether the layer of hair is bare skin, and the user did not say otherwise."""
-    strokes = work.corrections.strokes
-    if strokes is not None and (strokes == HAIR).any():
-        return False
-    likeness = skin_likeness(work.pixels, label=layers.label, landmarks=work["head"].landmarks)
-    return likeness is not None and likeness.is_skin
 
 
 def show_layers(work: Work) -> Picture:
