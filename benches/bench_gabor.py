@@ -84,9 +84,14 @@ def _seconds(work: Callable[[], object]) -> float:
     return time.perf_counter() - start
 
 
-if __name__ == "__main__":
+def main() -> None:
+    """Prints the seconds of both banks beside OpenCV's filter2D."""
     for row in gabor_times():
         print(
             f"{row.name}: {row.ours_secs:.3f} s, filter2D {row.filter2d_secs:.3f} s, ratio {row.ratio:.1f}, "
             f"{100 * row.folded_share:.0f} % of the products, {row.products_per_sec / 1e9:.1f} G/s"
         )
+
+
+if __name__ == "__main__":
+    main()

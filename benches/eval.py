@@ -14,8 +14,9 @@ from rich.table import Table
 from benches.eval_layers import hair_mask_iou_table
 from benches.metrics import psnr_db, ssim
 from benches.open_data import portraits, scorer, synthetic_cases
-from tress.app.portrait_job import PortraitJob, run_job
+from tress.app.portrait_job import PortraitOptions, run_portrait
 from tress.base.errors import TressError
+from tress.base.report import Report
 from tress.io.photo import read_photo
 
 CONSOLE = Console(width=140)
@@ -24,7 +25,7 @@ STRAND_KEY = "3mm_30deg"
 
 def reconstruction_of(photo: Path, folder: Path) -> dict[str, np.ndarray]:
     """The arrays of `reconstruction.npz` after a run with the default parameters."""
-    run_job(PortraitJob(photo=photo, out=folder))
+    run_portrait(PortraitOptions(photo=photo, folder=folder, formats=("hair",), turntable=False), report=Report())
     with np.load(folder / "reconstruction.npz") as arrays:
         return dict(arrays)
 

@@ -1,6 +1,7 @@
 """The scene from all around, frame by frame."""
 
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
@@ -8,6 +9,7 @@ import numpy as np
 
 from tress.base.params import Params, param
 from tress.base.report import Report
+from tress.model.camera import Camera
 from tress.render.flat_scene import FlatScene
 from tress.render.gbuffer import rasterise
 from tress.render.occlusion import prepared
@@ -20,12 +22,15 @@ Array = np.ndarray[Any, Any]
 BACKDROP = np.array([0.50, 0.50, 0.51], np.float32)
 """Linear light grey (sRGB 188): black hair and white hair both read against it."""
 
+_AHEAD = 3
+"""Frames in the making at once."""
+
 
 @dataclass(frozen=True)
 class TurntableParams(Params):
     """Size and number of the frames."""
 
-    frames: int = param(36, low=1, high=2000, doc="Frames of one turn.")
+    frames: int = param(24, low=1, high=2000, doc="Frames of one turn.")
     width: int = param(400, low=16, high=4096, unit="px", doc="Width of a frame; even, for the video.")
     height: int = param(500, low=16, high=4096, unit="px", doc="Height of a frame; even, for the video.")
     min_width_px: float = param(1.0, low=0.1, high=8, unit="px", doc="Least width of a strand.")
@@ -36,14 +41,17 @@ def turntable(
 ) -> Iterator[Array]:
     """Frames (height, width, 3) uint8 sRGB of one turn about the upright axis, from the front, over light grey.
 
-    Frames are made when they are asked for. Raises `InputError` for an empty scene.
+    Frames are made when they are asked for, a few at a time. Raises `InputError` for an empty scene.
     """
     settings = params or TurntableParams()
     scene = prepared(scene)
     camera = framed(scene, width=settings.width, height=settings.height)
     centre = pivot(scene)
-    for i in range(settings.frames):
-        view = turned(camera, angle_rad=2 * np.pi * i / settings.frames, pivot_in_world=centre)
+    views = [
+        turned(camera, angle_rad=2 * np.pi * i / settings.frames, pivot_in_world=centre) for i in range(settings.frames)
+    ]
+
+    def frame(view: Camera) -> Array:
         gbuffer = rasterise(
             scene,
             xy_from_world=view.xy_from_world,
@@ -51,6 +59,11 @@ def turntable(
             height=view.height,
             min_width_px=settings.min_width_px,
         )
-        yield srgb_rgb(premultiplied_rgba(gbuffer, style=style), background=BACKDROP)
-        if report is not None:
-            report.progress((i + 1) / settings.frames)
+        return srgb_rgb(premultiplied_rgba(gbuffer, style=style), background=BACKDROP)
+
+    with ThreadPoolExecutor(_AHEAD) as pool:  # one frame is shaded while the next is rasterised
+        for start in range(0, settings.frames, _AHEAD):
+            for done, picture in enumerate(pool.map(frame, views[start : start + _AHEAD]), start=start + 1):
+                yield picture
+                if report is not None:
+                    report.progress(done / settings.frames)
