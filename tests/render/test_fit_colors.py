@@ -8,7 +8,9 @@ from render.small_scene import drawn, fringe, wall
 from scipy.ndimage import gaussian_filter
 
 from tress.base.errors import InputError
+from tress.kernel.raster import splat_residual
 from tress.render.fit_colors import fit_vertex_colors
+from tress.render.gbuffer import hair_coverage
 from tress.render.picture import premultiplied_rgba, straight_rgba
 from tress.render.styles.photo import PhotoStyle
 
@@ -73,3 +75,14 @@ def test_wrong_shapes_are_refused():
     gbuffer = drawn([fringe()])
     with pytest.raises(InputError, match=r"weight has shape \(3, 3\)"):
         fit_vertex_colors(gbuffer, colors=gbuffer.scene.color, target_linear=TARGET, weight=np.ones((3, 3)))
+
+
+def test_one_round_hands_back_the_mean_error():
+    """The first round is the transpose of shading: `splat_residual` is the second implementation."""
+    gbuffer = drawn([fringe(alpha=0.6)])
+    start = np.full_like(gbuffer.scene.color, 0.5)
+    weight = np.random.default_rng(5).uniform(0.1, 1, (60, 80)).astype(np.float32)
+    fitted = fit_vertex_colors(gbuffer, colors=start, target_linear=TARGET, weight=weight, iterations=1, most=10)
+    residual = np.where(hair_coverage(gbuffer)[..., None] > 0, TARGET - 0.5, 0)
+    mean, _ = splat_residual(gbuffer.fragments, residual=residual, pixel_weight=weight, points=len(start))
+    np.testing.assert_allclose(fitted, np.clip(start + mean, 0, 10), atol=1e-5)

@@ -17,6 +17,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(raster_gbuffer, module)?)?;
     module.add_function(wrap_pyfunction!(raster_composite, module)?)?;
     module.add_function(wrap_pyfunction!(raster_visible_weight, module)?)?;
+    module.add_function(wrap_pyfunction!(raster_fit_colors, module)?)?;
     module.add_function(wrap_pyfunction!(raster_splat_residual, module)?)
 }
 
@@ -96,6 +97,34 @@ fn raster_visible_weight<'py>(
         weight: weight.as_slice()?,
     };
     Ok(py.detach(|| tress_raster::visible_weight(&fragments, points)).into_pyarray(py))
+}
+
+/// Colours (N, 3) with which the hair in the picture has the colours of `target`.
+#[pyfunction]
+fn raster_fit_colors<'py>(
+    py: Python<'py>,
+    pixel_offsets: PyReadonlyArray1<'py, i64>,
+    kind: PyReadonlyArray1<'py, u8>,
+    primitive: PyReadonlyArray1<'py, i32>,
+    parameter: Rows<'py>,
+    weight: Floats<'py>,
+    colors: Rows<'py>,
+    target: Rows<'py>,
+    pixel_weight: Floats<'py>,
+    iterations: usize,
+    most: f32,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let fragments = SegmentFragments {
+        pixel_offsets: pixel_offsets.as_slice()?,
+        kind: kind.as_slice()?,
+        primitive: primitive.as_slice()?,
+        parameter: parameter.as_slice()?.as_chunks().0,
+        weight: weight.as_slice()?,
+    };
+    let (colors, target) = (colors.as_slice()?.as_chunks().0, target.as_slice()?.as_chunks().0);
+    let pixel_weight = pixel_weight.as_slice()?;
+    let found = py.detach(|| tress_raster::fit_colors(&fragments, colors, target, pixel_weight, iterations, most));
+    Ok(Array2::from(found).into_pyarray(py))
 }
 
 /// Weighted mean (N, 3) of the pixels' values over every point, and the weights (N,).

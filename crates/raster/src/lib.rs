@@ -7,6 +7,7 @@
 mod bins;
 mod composite;
 mod error;
+mod fit;
 mod gbuffer;
 mod project;
 mod rasterise;
@@ -21,6 +22,7 @@ mod triangle;
 
 pub use composite::composite;
 pub use error::RasterError;
+pub use fit::fit_colors;
 pub use gbuffer::{Fragment, GBuffer, Kind};
 pub use project::{ProjectedVertex, project};
 pub use rasterise::rasterise;

@@ -29,7 +29,7 @@ pub struct SegmentFragments<'a> {
 
 impl SegmentFragments<'_> {
     /// Calls `visit(pixel, point, share)` for both points of every fragment of a segment.
-    fn for_each_share(&self, mut visit: impl FnMut(usize, usize, f64)) {
+    pub(crate) fn for_each_share(&self, mut visit: impl FnMut(usize, usize, f64)) {
         for (pixel, range) in self.pixel_offsets.windows(2).enumerate() {
             for i in range[0] as usize..range[1] as usize {
                 if self.kind[i] == 0 {

@@ -117,6 +117,22 @@ def visible_weight(fragments: Fragments, *, points: int) -> Array:
     return _core.raster_visible_weight(*_segment_arrays(fragments), points)
 
 
+def fit_colors(
+    fragments: Fragments, *, colors: Array, target: Array, pixel_weight: Array, iterations: int, most: float
+) -> Array:
+    """Colours (N, 3) float32 in [0, `most`] of the strand points, from `colors` (N, 3) on, nearing `target` (H, W, 3).
+
+    SIRT with momentum: the mean colour of the hair in every pixel is compared with the target, and errors are handed
+    back as by `splat_residual`. `pixel_weight` (H, W): how much a pixel counts; 0 for not at all.
+    """
+    start = checked(colors, name="colors", dtype=np.float32, shape=(None, 3))
+    _check_points(fragments, len(start))
+    size = (fragments.height, fragments.width)
+    values = checked(target, name="target", dtype=np.float32, shape=(*size, 3)).reshape(-1, 3)
+    factor = checked(pixel_weight, name="pixel_weight", dtype=np.float32, shape=size).reshape(-1)
+    return _core.raster_fit_colors(*_segment_arrays(fragments), start, values, factor, int(iterations), float(most))
+
+
 def splat_residual(fragments: Fragments, *, residual: Array, pixel_weight: Array, points: int) -> tuple[Array, Array]:
     """The transpose of shading: per strand point the weighted mean of `residual` (H, W, 3), and the weight.
 

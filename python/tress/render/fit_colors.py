@@ -13,7 +13,7 @@ import numpy as np
 
 from tress.base.errors import InputError
 from tress.kernel import raster
-from tress.render.gbuffer import GBuffer, HairFragments, hair_coverage, hair_fragments
+from tress.render.gbuffer import GBuffer
 
 Array = np.ndarray[Any, Any]
 
@@ -36,28 +36,14 @@ def fit_vertex_colors(
     Raises `InputError` for shapes that do not fit the GBuffer.
     """
     _check(gbuffer, colors, target_linear, weight)
-    hair = hair_fragments(gbuffer)
-    coverage = hair_coverage(gbuffer)
-    counts = np.where(coverage > 0, weight, 0).astype(np.float32)
-    found = ahead = np.clip(np.asarray(colors, np.float32), 0, most)
-    pace = 1.0
-    for _ in range(iterations):
-        shown = _shown(gbuffer, hair, ahead) / np.maximum(coverage, 1e-6)[..., None]
-        residual = np.where(counts[..., None] > 0, target_linear - shown, 0)
-        step, _ = raster.splat_residual(gbuffer.fragments, residual=residual, pixel_weight=counts, points=len(found))
-        previous, found = found, np.clip(ahead + step, 0, most)
-        next_pace = 0.5 * (1 + np.sqrt(1 + 4 * pace * pace))
-        ahead = np.clip(found + np.float32((pace - 1) / next_pace) * (found - previous), 0, most)
-        pace = next_pace
-    return found
-
-
-def _shown(gbuffer: GBuffer, hair: HairFragments, colors: Array) -> Array:
-    """(H, W, 3): the hair's colours times its coverage."""
-    rgba = np.zeros((len(gbuffer.fragments.weight), 4), np.float32)
-    rgba[hair.index, :3] = hair.values(colors)
-    rgba[hair.index, 3] = 1
-    return raster.composite(gbuffer.fragments, rgba=rgba)[..., :3]
+    return raster.fit_colors(
+        gbuffer.fragments,
+        colors=colors,
+        target=np.where(np.asarray(weight)[..., None] > 0, target_linear, 0),
+        pixel_weight=weight,
+        iterations=iterations,
+        most=most,
+    )
 
 
 def _check(gbuffer: GBuffer, colors: Array, target: Array, weight: Array) -> None:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from tress.head.fit import FittedHead
 from tress.head.texture import head_texture
 from tress.image.labels import FACE
+from tress.kernel.strands import transformed
 from tress.methods.portrait.color import ColoredHair
 from tress.methods.portrait.grow import GrownHair
 from tress.methods.portrait.head import PortraitHead
@@ -100,7 +101,10 @@ def strand_radius_m(grown: GrownHair, *, px_per_metre: float) -> NDArray[np.floa
 
 def in_head(points_in_view: NDArray[np.floating], view_from_head: NDArray[np.float64]) -> NDArray[np.float64]:
     """Points (N, 3) of the view frame in the head frame: the inverse of the rigid `view_from_head` (4, 4)."""
-    return (points_in_view - view_from_head[:3, 3]) @ view_from_head[:3, :3]
+    head_from_view = np.eye(4)
+    head_from_view[:3, :3] = view_from_head[:3, :3].T
+    head_from_view[:3, 3] = -(view_from_head[:3, :3].T * view_from_head[:3, 3]).sum(axis=1)
+    return transformed(points_in_view, transform=head_from_view)
 
 
 def _texture(work: Work) -> NDArray[np.uint8]:
