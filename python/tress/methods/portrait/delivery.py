@@ -16,6 +16,7 @@ from PIL import Image
 
 from tress import __version__
 from tress.base.report import Report
+from tress.image.labels import FACE
 from tress.io.format import Format
 from tress.io.formats.npz import Maps, write_reconstruction
 from tress.io.stage_cache import StageCache
@@ -37,6 +38,9 @@ from tress.render.views import framed, pivot, turned
 
 STAGES_FOLDER: Final = "stages"
 PREVIEW_HEIGHT: Final = 640
+PREVIEW_ALPHA: Final = 0.5
+PREVIEW_AIR: Final = 0.12
+"""Air around the head in the preview, as a share of its size."""
 PREVIEW_ANGLES: Final = tuple(math.radians(angle) for angle in (-30, 30, 180))
 PREVIEW_CAPTIONS: Final = ("photo", "rendered over it", "-30 degrees", "+30 degrees", "back")
 _VERSIONS_OF: Final = ("numpy", "scipy", "opencv-python-headless", "scikit-image", "pillow", "usd-core")
@@ -106,11 +110,22 @@ def deliver_arrays(reconstruction: Reconstruction, folder: Path) -> None:
 def preview(reconstruction: Reconstruction, scene: FlatScene) -> NDArray[np.uint8]:
     """The photo, the hair rendered over it, the head turned by 30° to either side, and from behind."""
     work = reconstruction.work
-    height = work.pixels.shape[0]
     camera = framed(scene, width=round(0.8 * PREVIEW_HEIGHT), height=PREVIEW_HEIGHT)
     views = [_view(scene, turned(camera, angle_rad=angle, pivot_in_world=pivot(scene))) for angle in PREVIEW_ANGLES]
-    pictures = [work.pixels, work["color"].composite, *views]
-    return contact_sheet(pictures, captions=PREVIEW_CAPTIONS, height=min(height, PREVIEW_HEIGHT))
+    box = _head_box(work["matte"].alpha, work["layers"].label)
+    pictures = [work.pixels[box], work["color"].composite[box], *views]
+    return contact_sheet(pictures, captions=PREVIEW_CAPTIONS, height=PREVIEW_HEIGHT)
+
+
+def _head_box(alpha: NDArray[np.float32], label: NDArray[np.uint8]) -> tuple[slice, slice]:
+    """The part of the photo that shows hair and face, with some air around it."""
+    shown = (alpha > PREVIEW_ALPHA) | (label == FACE)
+    sides = []
+    for axis in (1, 0):
+        within = np.flatnonzero(shown.any(axis=axis))
+        air = round(PREVIEW_AIR * (within[-1] + 1 - within[0]))
+        sides.append(slice(max(0, within[0] - air), within[-1] + 1 + air))
+    return sides[0], sides[1]
 
 
 def _view(scene: FlatScene, camera: Camera) -> NDArray[np.uint8]:
