@@ -4,8 +4,9 @@ from typing import Any
 
 import cv2
 import numpy as np
-from scipy.ndimage import gaussian_filter1d
+from scipy.ndimage import binary_erosion
 
+from tress.image.complete import complete
 from tress.methods.portrait.volume import HairVolume
 
 Array = np.ndarray[Any, Any]
@@ -20,6 +21,12 @@ OWN_SHARE = 0.4
 """How much a hidden strand differs from the mean of its height."""
 WIDTHS = 64
 """Places across the hair from which hidden strands draw their colour."""
+COMPLETED_PX = 192
+"""Longer side of the picture in which hidden hair is completed."""
+COMPLETED_BLUR_PX = 2.0
+"""Blur of that picture, since the completed hair stands for many strands behind each other."""
+HEIGHT_GUIDE = 1.0
+"""How strongly the completion keeps to the height, in units of colour over the whole height."""
 
 
 def strand_colors(
@@ -34,8 +41,9 @@ def strand_colors(
 ) -> tuple[Array, Array]:
     """(N, 3) float32 linear and (N,) float32: a visible vertex takes its own pixel of the matte.
 
-    A hidden one takes hair of its height: the mean there, and for each strand a part of what lies at a place across the
-    hair drawn for it, so that roots, tips and locks differ as in the photograph; close behind visible hair, that hair.
+    A hidden one takes the colour to which the hair is completed at its place (PatchMatch, guided by the height), and a
+    part of what lies at a place across the hair drawn for its strand, so that roots, tips and locks differ as in the
+    photograph; close behind visible hair, that hair.
     """
     shape = alpha.shape
     pixel = points[:, :2] * [xy_from_view[0, 0], xy_from_view[1, 1]] + xy_from_view[:2, 3]
@@ -43,9 +51,11 @@ def strand_colors(
     behind = hair.sheet[_index(pixel, shape)] - points[:, 2]
     shown = np.repeat(visible, count) & (np.abs(behind) < ON_SHEET)
     place = np.repeat(random.integers(0, WIDTHS, len(count)), count)
-    means, across = _by_height(foreground, _solid(alpha, hair))
+    solid = _solid(alpha, hair)
+    across = _across(foreground, solid)
     row = np.clip(pixel[:, 1].astype(np.int64), 0, shape[0] - 1)
-    color = (1 - OWN_SHARE) * means[row] + OWN_SHARE * across[row, place]
+    completed = _completed(foreground, solid, pixel, seed=int(random.integers(2**31)))
+    color = (1 - OWN_SHARE) * _bilinear(completed, pixel) + OWN_SHARE * across[row, place]
     near = np.nan_to_num(np.exp(-np.maximum(behind, 0) / LIKE_NEAR), nan=0.0).astype(np.float32)
     smooth = cv2.GaussianBlur(np.asarray(foreground, np.float32), (0, 0), 2.0)
     color = (color + near[:, None] * (smooth[_index(pixel, shape)] - color)).astype(np.float32)
@@ -62,21 +72,42 @@ def _solid(alpha: Array, hair: HairVolume) -> Array:
     return solid if solid.any() else hairy
 
 
-def _by_height(foreground: Array, solid: Array) -> tuple[Array, Array]:
-    """For every row of the photo the mean colour (H, 3) of its hair, and (H, WIDTHS, 3) colours across it.
+def _completed(foreground: Array, solid: Array, pixel: Array, *, seed: int) -> Array:
+    """(H, W, 3) float32: the picture of the hair, completed behind all that hides it where strands (N, 2) px run.
 
-    Rows without hair take the nearest row's.
+    Done at `COMPLETED_PX` pixels a side, since hidden hair is seen through nothing finer; smooth beyond its locks.
     """
+    low, high = np.floor(pixel.min(axis=0)).astype(int), np.ceil(pixel.max(axis=0)).astype(int)
+    top, left = (int(np.clip(low[k], 0, solid.shape[1 - k] - 1)) for k in (1, 0))
+    box = slice(top, max(top + 1, high[1])), slice(left, max(left + 1, high[0]))
+    height, width = solid[box].shape
+    size = tuple(max(8, round(side * min(1.0, COMPLETED_PX / max(height, width)))) for side in (width, height))
+    known = cv2.resize(solid[box].astype(np.float32), size, interpolation=cv2.INTER_AREA) > 0.99
+    result = np.array(foreground, np.float32)
+    if not binary_erosion(known, np.ones((3, 3))).any():
+        result[:] = foreground[solid].mean(axis=0) if solid.any() else 0
+        return result
+    small = np.asarray(
+        cv2.resize(np.asarray(foreground[box], np.float32), size, interpolation=cv2.INTER_AREA), np.float32
+    )
+    rows = np.linspace(0, HEIGHT_GUIDE, size[1]).astype(np.float32)
+    level = np.repeat(rows[:, None, None], size[0], axis=1)
+    filled = complete(small, hole=~known, source=known, guide=level, seed=seed)
+    filled = cv2.GaussianBlur(filled, (0, 0), COMPLETED_BLUR_PX)
+    result[box] = cv2.resize(filled, (width, height), interpolation=cv2.INTER_LINEAR)
+    return result
+
+
+def _across(foreground: Array, solid: Array) -> Array:
+    """For every row of the photo (H, WIDTHS, 3) colours across its hair. Rows without hair take the nearest row's."""
     height = len(solid)
-    means, across = np.zeros((height, 3), np.float32), np.zeros((height, WIDTHS, 3), np.float32)
+    across = np.zeros((height, WIDTHS, 3), np.float32)
     rows = np.nonzero(solid.any(axis=1))[0]
     for row in rows:
         columns = np.nonzero(solid[row])[0]
-        picked = columns[np.linspace(0, len(columns) - 1, WIDTHS).astype(np.int64)]
-        across[row] = foreground[row, picked]
-        means[row] = across[row].mean(axis=0)
+        across[row] = foreground[row, columns[np.linspace(0, len(columns) - 1, WIDTHS).astype(np.int64)]]
     nearest = rows[np.abs(np.arange(height)[:, None] - rows[None]).argmin(axis=1)] if len(rows) else np.arange(height)
-    return gaussian_filter1d(means[nearest], 4.0, axis=0), across[nearest]
+    return across[nearest]
 
 
 def _index(pixel: Array, shape: tuple[int, ...]) -> tuple[Array, Array]:
