@@ -10,7 +10,7 @@ export PIP_QUIET := 1
 RUST_SOURCES := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml
 ASSET_SOURCES := $(shell find tools/assets -name '*.py' 2>/dev/null)
 
-.PHONY: help setup core assets demo test test-full test-lowest lint fmt bench eval golden docs clean
+.PHONY: help setup core assets demo test test-full test-lowest lint fmt bench eval docs clean
 help: ## what can be made
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 

@@ -31,7 +31,7 @@ def save_record(path: Path, record: Any, *, header: Mapping[str, str] | None = N
     tree = _tree(record, "record", arrays)
     words = json.dumps({"header": dict(header or {}), "tree": tree})
     with path.open("wb") as file:
-        np.savez(file, allow_pickle=False, **{_TREE: np.array(words)}, **arrays)
+        np.savez(file, **{_TREE: np.array(words)}, **arrays)
 
 
 def load_record(path: Path) -> tuple[Any, dict[str, str]]:
