@@ -109,7 +109,7 @@ def _away_from(roots_px: NDArray[np.floating], mask: NDArray[np.bool_]) -> NDArr
 
 def _grid_graph(cells: NDArray[np.bool_]) -> csr_array:
     """Graph of the true cells, joined to their eight neighbours by their distance."""
-    index = np.arange(cells.size).reshape(cells.shape)
+    index = np.arange(cells.size, dtype=np.int32).reshape(cells.shape)  # SciPy's paths take no wider indices
     rows, columns, lengths = [], [], []
     for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
         here, there = _shifted(down, right, cells.shape)
