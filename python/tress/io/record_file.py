@@ -30,8 +30,9 @@ def save_record(path: Path, record: Any, *, header: Mapping[str, str] | None = N
     arrays: dict[str, np.ndarray] = {}
     tree = _tree(record, "record", arrays)
     words = json.dumps({"header": dict(header or {}), "tree": tree})
+    named: dict[str, Any] = {_TREE: np.array(words), **arrays}
     with path.open("wb") as file:
-        np.savez(file, **{_TREE: np.array(words)}, **arrays)
+        np.savez(file, **named)
 
 
 def load_record(path: Path) -> tuple[Any, dict[str, str]]:
