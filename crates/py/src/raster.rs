@@ -89,13 +89,7 @@ fn raster_visible_weight<'py>(
     weight: Floats<'py>,
     points: usize,
 ) -> PyResult<Bound<'py, PyArray1<f32>>> {
-    let fragments = SegmentFragments {
-        pixel_offsets: pixel_offsets.as_slice()?,
-        kind: kind.as_slice()?,
-        primitive: primitive.as_slice()?,
-        parameter: parameter.as_slice()?.as_chunks().0,
-        weight: weight.as_slice()?,
-    };
+    let fragments = segment_fragments(&pixel_offsets, &kind, &primitive, &parameter, &weight)?;
     Ok(py.detach(|| tress_raster::visible_weight(&fragments, points)).into_pyarray(py))
 }
 
@@ -114,13 +108,7 @@ fn raster_fit_colors<'py>(
     iterations: usize,
     most: f32,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-    let fragments = SegmentFragments {
-        pixel_offsets: pixel_offsets.as_slice()?,
-        kind: kind.as_slice()?,
-        primitive: primitive.as_slice()?,
-        parameter: parameter.as_slice()?.as_chunks().0,
-        weight: weight.as_slice()?,
-    };
+    let fragments = segment_fragments(&pixel_offsets, &kind, &primitive, &parameter, &weight)?;
     let (colors, target) = (colors.as_slice()?.as_chunks().0, target.as_slice()?.as_chunks().0);
     let pixel_weight = pixel_weight.as_slice()?;
     let found = py.detach(|| tress_raster::fit_colors(&fragments, colors, target, pixel_weight, iterations, most));
@@ -140,16 +128,26 @@ fn raster_splat_residual<'py>(
     pixel_weight: Floats<'py>,
     points: usize,
 ) -> PyResult<MeanAndWeight<'py>> {
-    let fragments = SegmentFragments {
+    let fragments = segment_fragments(&pixel_offsets, &kind, &primitive, &parameter, &weight)?;
+    let (residual, pixel_weight) = (residual.as_slice()?.as_chunks().0, pixel_weight.as_slice()?);
+    let found = py.detach(|| tress_raster::splat_residual(&fragments, residual, pixel_weight, points));
+    Ok((Array2::from(found.mean).into_pyarray(py), found.weight.into_pyarray(py)))
+}
+
+fn segment_fragments<'a>(
+    pixel_offsets: &'a PyReadonlyArray1<'_, i64>,
+    kind: &'a PyReadonlyArray1<'_, u8>,
+    primitive: &'a PyReadonlyArray1<'_, i32>,
+    parameter: &'a Rows<'_>,
+    weight: &'a Floats<'_>,
+) -> PyResult<SegmentFragments<'a>> {
+    Ok(SegmentFragments {
         pixel_offsets: pixel_offsets.as_slice()?,
         kind: kind.as_slice()?,
         primitive: primitive.as_slice()?,
         parameter: parameter.as_slice()?.as_chunks().0,
         weight: weight.as_slice()?,
-    };
-    let (residual, pixel_weight) = (residual.as_slice()?.as_chunks().0, pixel_weight.as_slice()?);
-    let found = py.detach(|| tress_raster::splat_residual(&fragments, residual, pixel_weight, points));
-    Ok((Array2::from(found.mean).into_pyarray(py), found.weight.into_pyarray(py)))
+    })
 }
 
 fn vertices(array: &Rows<'_>) -> PyResult<Vec<ProjectedVertex>> {
