@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,6 +18,19 @@ class Texels:
     column: NDArray[np.int64]
     triangle: NDArray[np.int64]
     barycentric: NDArray[np.float32]
+
+    def nearest(self, *, size: int) -> NDArray[np.int32]:
+        """For every texel of the `size` x `size` texture the covered one (its place in `row`) that is closest to it:
+        (size, size)."""
+        covered = np.zeros((size, size), np.uint8)
+        covered[self.row, self.column] = 1
+        _, label = cv2.distanceTransformWithLabels(
+            1 - covered, cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
+        )
+        label = np.asarray(label, np.int32)
+        numbers = np.zeros(int(label.max()) + 1, np.int32)
+        numbers[label[self.row, self.column]] = np.arange(len(self.row))
+        return numbers[label]
 
 
 def texels(corner_uv: NDArray[np.floating], *, size: int) -> Texels:

@@ -1,33 +1,44 @@
 """The head's texture out of the photograph.
 
-Every texel knows its place on the head. Where that place faces the camera, is not behind another part of the head and
-shows skin, the photograph's colour is taken; where it does not, that of its mirror image on the other side of the
-head, brought to the same brightness; and where neither is seen, colours spread in from around, towards the median of
-the skin. The blends are weighted, so that no edge shows between the three. Limits: the photograph's light stays in the
-texture; hair that the mask missed is painted on.
+Two layers. Below lies a smooth colour of the skin all over the head (`skin_field`): the local mean of the photograph
+where it surely shows skin, spread over the surface towards the median of the skin, and tinted on the scalp. On top
+lies the photograph where a place faces the camera, is not behind another part of the head, and is face, or is well
+inside the bare skin and of its colour; and where that is not so, the photograph of the mirrored place, multiplied by
+the ratio of the two smooth colours, which takes the light of its side away and puts the right one on. What is on top
+fades into what is below, which is already of its colour, so no edge shows, and no pixel of background, clothes or hair
+is painted on.
+
+Limits: the photograph's light stays in the texture; the completed skin is smooth; ears are of the smooth colour alone,
+since they lie too inexactly on the photographed ones.
 """
 
+from dataclasses import dataclass
 from functools import lru_cache
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
+from tress.head.face_places import face_places
 from tress.head.fit import FittedHead
-from tress.head.scalp import vertex_normals
+from tress.head.seen import seen_by_camera
+from tress.head.skin_field import skin_field
+from tress.head.skin_model import skin_model
+from tress.head.skin_seen import SkinSeen, head_cells, skin_seen
 from tress.head.statistical import StatisticalHead, load_statistical_head
-from tress.head.texels import Texels, texels
-from tress.kernel.geom import rays_blocked
+from tress.head.texels import texels
 
-FACING = (0.25, 0.6)
-"""Cosine between normal and camera at which the photograph begins to count, and counts fully."""
 ENOUGH = 0.6
 """Weight of the photograph from which the mirror image adds nothing."""
-SPREAD = 0.02
-"""Weight of the skin's median against what spreads in from around."""
-MOUTH_COLOR = np.array([0.25, 0.10, 0.10])
+GREATEST_GAIN = 2.0
+"""Between the brightness of one side of the head and of the other."""
+SCALP_TINT = 0.4
+"""How much of the hair's colour the skin below it takes."""
+DEFAULT_SKIN = np.array([0.72, 0.55, 0.47], np.float32)
+"""sRGB of the skin where the photograph shows none."""
+MOUTH_COLOR = np.array([0.25, 0.10, 0.10], np.float32)
 """sRGB of the mouth's inside."""
-LIFT_M = 5e-4
 
 
 def head_texture(
@@ -43,146 +54,123 @@ def head_texture(
     sRGB.
 
     `skin` (H, W) in [0, 1] says where the photograph shows bare skin, so that no hair is painted on the head; without
-    it all of the head but scalp and neck counts. `scalp_color` (3,) sRGB in [0, 1] tints the scalp, as hair roots do.
-    About 0.6 s.
+    it the colour decides. `scalp_color` (3,) sRGB in [0, 1] tints the scalp, as hair roots do. About 0.2 s.
     """
     head = head or load_statistical_head()
-    places = _texels(head, size)
-    weight_at = _pockets_like_rims(_facing(fitted), head)
-    if skin is None:
-        weight_at = weight_at * (1 - head.masks["scalp"]) * (1 - head.masks["neck"])
-    own, own_weight = _photographed(image, skin, fitted, weight_at, places, None)
-    other, other_weight = _photographed(image, skin, fitted, weight_at, places, head.mirror)
-    other = np.clip(other * _gain(own, own_weight, other, other_weight), 0, 1)
-    other_weight = other_weight * np.clip(1 - own_weight / ENOUGH, 0, 1)
+    layout = _layout(head, size)
+    xy = fitted.project(fitted.positions_in_view)
+    seen = seen_by_camera(fitted, head=head) * face_places(head).painted
+    skin_at = _skin_at(image, skin, fitted, seen, head)
+    if skin_at is None:
+        return np.broadcast_to(np.rint(DEFAULT_SKIN * 255), (size, size, 3)).astype(np.uint8)
+    field = _field(skin_at, xy, seen, head)
+    gain = np.clip(field / np.maximum(field[head.mirror], 1e-3), 1 / GREATEST_GAIN, GREATEST_GAIN)
+    likely = _remapped(skin_at.bare * skin_at.likely, skin_at.cells(xy))
+    place = np.column_stack([xy, seen, face_places(head).any_color(likely, seen=seen)])
+    own, own_weight = _photographed(image, skin_at, place, layout)
+    other, other_weight = _photographed(image, skin_at, place[head.mirror], layout)
+    other *= layout.at(gain)
+    other_weight *= np.clip(1 - own_weight / np.float32(ENOUGH), 0, 1)
     total = own_weight + other_weight
-    color = (own * own_weight[:, None] + other * other_weight[:, None]) / np.maximum(total, 1e-6)[:, None]
-    skin_color = _skin_color(own, own_weight * _at(head.masks["face"], head, places))
-    sheet, known = np.zeros((size, size, 3), np.float32), np.zeros((size, size), np.float32)
-    sheet[places.row, places.column], known[places.row, places.column] = color, total
-    sheet = _spread(sheet, known, skin_color)
-    mouth = _at(head.masks["inside"] * (1 - head.masks["eyes"]), head, places)
-    _tint(sheet, places, mouth * np.clip(1 - 2 * own_weight, 0, 1), MOUTH_COLOR)
-    if scalp_color is not None:
-        _tint(sheet, places, _at(head.masks["scalp"], head, places), np.asarray(scalp_color))
-    return np.clip(np.rint(sheet * 255), 0, 255).astype(np.uint8)
+    below = layout.at(_tinted(field, head, scalp_color))
+    top = (own * own_weight[:, None] + other * other_weight[:, None]) / np.maximum(total, 1e-6)[:, None]
+    color = below + np.minimum(total, 1)[:, None] * (top - below)
+    return np.clip(np.rint(color * 255), 0, 255).astype(np.uint8)[layout.nearest]
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """The texels of a head's texture: `weights` (N, V) of the vertices at each covered one, and for every texel the
+    covered one that is closest, `nearest` (size, size)."""
+
+    weights: csr_array
+    nearest: NDArray[np.int32]
+
+    def at(self, values: NDArray[np.floating]) -> NDArray[np.float32]:
+        """Values of the vertices (V, C) at the covered texels (N, C)."""
+        return self.weights @ np.ascontiguousarray(values, np.float32)
 
 
 @lru_cache(maxsize=2)
-def _texels_of(uv: bytes, size: int) -> Texels:
-    return texels(np.frombuffer(uv, np.float32).reshape(-1, 3, 2), size=size)
+def _layout(head: StatisticalHead, size: int) -> _Layout:
+    places = texels(head.corner_uv, size=size)
+    vertices = head.triangles[places.triangle]
+    starts = np.arange(0, 3 * len(vertices) + 1, 3, dtype=np.int32)
+    parts = (np.ascontiguousarray(places.barycentric).ravel(), np.ascontiguousarray(vertices).ravel(), starts)
+    weights = csr_array(parts, shape=(len(vertices), len(head.mean)))
+    return _Layout(weights, places.nearest(size=size))
 
 
-def _texels(head: StatisticalHead, size: int) -> Texels:
-    return _texels_of(np.ascontiguousarray(head.corner_uv, np.float32).tobytes(), size)
-
-
-def _facing(fitted: FittedHead) -> NDArray[np.float64]:
-    """How well the camera sees each vertex (V,), in [0, 1]."""
-    positions = fitted.positions_in_view
-    normals = vertex_normals(positions, triangles=fitted.triangles)
-    toward = np.broadcast_to([0.0, 0.0, 1.0], positions.shape)
-    origins = positions + LIFT_M * (normals + toward)
-    hidden = rays_blocked(positions, triangles=fitted.triangles, origins=origins, directions=toward)
-    t = np.clip((normals[:, 2] - FACING[0]) / (FACING[1] - FACING[0]), 0, 1)
-    return t * t * (3 - 2 * t) * ~np.asarray(hidden, bool)
-
-
-def _pockets_like_rims(weight_at: NDArray[np.float64], head: StatisticalHead) -> NDArray[np.float64]:
-    """Mouth bag, eye sockets and eyeballs count as their lips and lids do on that side, on the whole: so teeth and eyes
-    are painted where they show, and what is hidden now looks like its surroundings when the head turns."""
-    masks, side = head.masks, head.mean[:, 0] > 0
-    skin = np.arange(len(side)) < head.skin_count
-    pockets = (masks["inside"] > 0.5) | ~skin
-    weight = weight_at.copy()
-    for name, filled in (("eyes", pockets & (masks["eyes"] > 0.5)), ("lips", pockets & (masks["eyes"] <= 0.5))):
-        rim = (masks[name] > 0.5) & ~pockets
-        for half in (side, ~side):
-            weight[filled & half] = weight_at[rim & half].mean()
-    return weight
-
-
-def _photographed(
+def _skin_at(
     image: NDArray[np.uint8],
     skin: NDArray[np.floating] | None,
     fitted: FittedHead,
-    weight_at: NDArray[np.float64],
-    places: Texels,
-    mirror: NDArray[np.int32] | None,
+    seen: NDArray[np.float64],
+    head: StatisticalHead,
+) -> SkinSeen | None:
+    """What of the photograph is skin, by the colours that the middle of the face shows; None where it shows none."""
+    xy = fitted.project(fitted.positions_in_view)
+    cells = head_cells(image, skin=skin, xy=xy, px_per_metre=fitted.px_per_metre)
+    if cells is None:
+        return None
+    masks = head.masks
+    plain = (masks["face"] > 0.9) & (masks["eyes"] < 0.1) & (masks["lips"] < 0.1) & (masks["inside"] < 0.1)
+    column, row = np.floor((xy - cells.corner) / cells.step).astype(int).T
+    height, width = cells.skin.shape
+    chosen = plain & (seen > 0.5) & (column >= 0) & (row >= 0) & (column < width) & (row < height)
+    row, column = row[chosen], column[chosen]
+    bare = cells.skin[row, column] > 0.9
+    if not bare.any():
+        return None
+    model = skin_model(cells.image[row[bare], column[bare]])
+    return skin_seen(cells, model=model, px_per_metre=fitted.px_per_metre)
+
+
+def _field(
+    skin_at: SkinSeen, xy: NDArray[np.float64], seen: NDArray[np.float64], head: StatisticalHead
+) -> NDArray[np.float32]:
+    """The smooth colour of the skin (V, 3) sRGB in [0, 1]."""
+    cells = skin_at.cells(xy)
+    known, sure = _remapped(skin_at.mean, cells), _remapped(skin_at.sure, cells)
+    trust = sure * seen * (1 - head.masks["inside"]) * (1 - head.masks["lips"])
+    return skin_field(known, trust=trust, far=skin_at.color, head=head)
+
+
+def _tinted(
+    field: NDArray[np.float32], head: StatisticalHead, scalp_color: NDArray[np.floating] | None
+) -> NDArray[np.float32]:
+    """The smooth colour (V, 3) with the mouth's inside and the scalp in theirs."""
+    tinted = _mixed(field, MOUTH_COLOR, head.masks["inside"] * (1 - head.masks["eyes"]))
+    if scalp_color is None:
+        return tinted
+    return _mixed(tinted, np.asarray(scalp_color, np.float32), np.float32(SCALP_TINT) * head.masks["scalp"])
+
+
+def _mixed(field: NDArray[np.float32], color: NDArray[np.float32], amount: NDArray[np.float32]) -> NDArray[np.float32]:
+    return np.asarray(field + amount[:, None] * (color - field), np.float32)
+
+
+def _photographed(
+    image: NDArray[np.uint8], skin_at: SkinSeen, place: NDArray[np.float64], layout: _Layout
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Colour (N, 3) in [0, 1] of the photograph at the texels (or at their mirror images) and its weight (N,)."""
-    vertices = fitted.triangles[places.triangle]
-    if mirror is not None:
-        vertices = mirror[vertices]
-    xy = np.einsum("nk,nkd->nd", places.barycentric, fitted.project(fitted.positions_in_view)[vertices])
-    weight = np.einsum("nk,nk->n", places.barycentric, weight_at[vertices])
-    x, y = (xy.T.reshape(2, -1, 1) - 0.5).astype(np.float32)
-    color = (_remapped(image, x, y) / np.float32(255)).astype(np.float32)
-    inside = (x[:, 0] >= 0) & (y[:, 0] >= 0) & (x[:, 0] <= image.shape[1] - 1) & (y[:, 0] <= image.shape[0] - 1)
-    weight = weight * inside
-    if skin is not None:
-        weight = weight * _remapped(np.asarray(skin, np.float32), x, y) ** 2
-    return color, np.asarray(weight, np.float32)
+    """Colour (N, 3) sRGB in [0, 1] of the photograph at the texels and its weight (N,), from the `place` of the
+    vertices (V, 4): x, y px, how well they are seen, and how far every colour counts there."""
+    x, y, seen, any_color = layout.at(place).T
+    inside = (x >= 0.5) & (y >= 0.5) & (x <= image.shape[1] - 0.5) & (y <= image.shape[0] - 0.5)
+    used = np.flatnonzero((seen > 0) & inside)
+    xy = np.column_stack([x[used], y[used]])
+    color, weight = np.zeros((len(x), 3), np.float32), np.zeros(len(x), np.float32)
+    color[used] = _remapped(image, xy - np.float32(0.5)) / np.float32(255)
+    bare, likely = _remapped(np.dstack([skin_at.bare, skin_at.likely]), skin_at.cells(xy)).T
+    weight[used] = seen[used] * bare * np.maximum(any_color[used], likely)
+    return color, weight
 
 
-def _remapped(image: NDArray, x: NDArray[np.float32], y: NDArray[np.float32]) -> NDArray:
-    """`image` at N points, bilinear; in strips, since OpenCV's remap takes at most 32,767 rows."""
-    side = int(np.ceil(np.sqrt(len(x))))
-    pad = side * side - len(x)
-    xs, ys = (np.pad(part[:, 0], (0, pad)).reshape(side, side) for part in (x, y))
-    out = cv2.remap(image, xs, ys, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    return np.asarray(out).reshape(side * side, *image.shape[2:])[: len(x)]
-
-
-def _gain(
-    own: NDArray[np.float32],
-    own_weight: NDArray[np.float32],
-    other: NDArray[np.float32],
-    other_weight: NDArray[np.float32],
-) -> NDArray[np.float32]:
-    """What the mirror image is multiplied by (3,) to be as bright as the photograph where both are seen half-way."""
-    both = own_weight * other_weight * np.clip(1 - own_weight, 0.02, 1)
-    if both.sum() <= 0:
-        return np.ones(3, np.float32)
-    return np.clip(_sum(both, own) / np.maximum(_sum(both, other), 1e-6), 0.5, 2.0).astype(np.float32)
-
-
-def _sum(weight: NDArray[np.float32], color: NDArray[np.float32]) -> NDArray[np.float64]:
-    return np.einsum("n,nc->c", weight.astype(np.float64), color.astype(np.float64))
-
-
-def _skin_color(color: NDArray[np.float32], weight: NDArray[np.float32]) -> NDArray[np.float32]:
-    seen = weight > 0.5
-    if not seen.any():
-        return np.array([0.72, 0.55, 0.47], np.float32)
-    return np.median(color[seen], axis=0).astype(np.float32)
-
-
-def _at(values: NDArray[np.floating], head: StatisticalHead, places: Texels) -> NDArray[np.float32]:
-    """A mask of the vertices at the texels (N,)."""
-    return np.einsum("nk,nk->n", places.barycentric, values[head.triangles[places.triangle]]).astype(np.float32)
-
-
-def _tint(sheet: NDArray[np.float32], places: Texels, amount: NDArray[np.float32], color: NDArray[np.floating]) -> None:
-    here = sheet[places.row, places.column]
-    sheet[places.row, places.column] = here + amount[:, None] * (color.astype(np.float32) - here)
-
-
-def _spread(
-    sheet: NDArray[np.float32], known: NDArray[np.float32], far_color: NDArray[np.float32]
-) -> NDArray[np.float32]:
-    """Fills what is not `known` by push and pull through a pyramid: ever coarser averages of what is, then back up."""
-    premultiplied = np.dstack([sheet * known[..., None], known])
-    levels = [premultiplied]
-    while min(levels[-1].shape[:2]) > 2:
-        half = (max(1, levels[-1].shape[1] // 2), max(1, levels[-1].shape[0] // 2))
-        levels.append(np.asarray(cv2.resize(levels[-1], half, interpolation=cv2.INTER_AREA), np.float32))
-    filled = np.broadcast_to(far_color, (*levels[-1].shape[:2], 3)).astype(np.float32)
-    for level in reversed(levels):
-        size = (level.shape[1], level.shape[0])
-        filled = np.asarray(cv2.resize(filled, size, interpolation=cv2.INTER_LINEAR), np.float32)
-        filled = filled.reshape(*size[::-1], 3)
-        filled += SPREAD * (far_color - filled)
-        average = level[..., :3] / np.maximum(level[..., 3:], 1e-6)
-        filled += np.clip(1.5 * level[..., 3:], 0, 1) * (average - filled)
-    return filled
+def _remapped(image: NDArray, xy: NDArray[np.floating]) -> NDArray:
+    """`image` at columns and rows (N, 2), bilinear; in strips, since OpenCV's remap takes at most 32,767 rows."""
+    side = int(np.ceil(np.sqrt(len(xy))))
+    padded = np.zeros((2, side * side), np.float32)
+    padded[:, : len(xy)] = xy.T
+    x, y = padded.reshape(2, side, side)
+    out = cv2.remap(image, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    return np.asarray(out).reshape(side * side, *image.shape[2:])[: len(xy)]

@@ -5,6 +5,7 @@ import hashlib
 import numpy as np
 from numpy.typing import NDArray
 
+from tress.base.color import linear_to_srgb
 from tress.head.fit import FittedHead
 from tress.head.texture import head_texture
 from tress.image.labels import FACE
@@ -108,6 +109,12 @@ def in_head(points_in_view: NDArray[np.floating], view_from_head: NDArray[np.flo
 
 
 def _texture(work: Work) -> NDArray[np.uint8]:
-    """The head's texture: skin where the photo shows it, the colour of the roots on the scalp."""
+    """The head's texture: skin where the photo shows it, tinted by the hair's roots on the scalp."""
     skin = (work["layers"].label == FACE) * (1 - work["matte"].alpha)
-    return head_texture(work.pixels, fitted=work["head"].fitted, skin=skin)
+    return head_texture(work.pixels, fitted=work["head"].fitted, skin=skin, scalp_color=_root_color(work["strands"]))
+
+
+def _root_color(grown: GrownHair) -> NDArray[np.float32] | None:
+    """The median colour (3,) sRGB in [0, 1] of the hair where it leaves the head; None without hair."""
+    roots = grown.color[grown.offsets[:-1]]
+    return linear_to_srgb(np.median(roots, axis=0)) if len(roots) else None
