@@ -67,7 +67,7 @@ clean: ## remove what was built
 test-lowest: setup ## the Python tests against the lower bounds of the requirements
 	test -x .venv-lowest/bin/python || $(PYTHON) -m venv .venv-lowest
 	$(BIN)/python tools/requirements.py --lowest > $(STAMPS)/lowest.txt
-	.venv-lowest/bin/python -m pip install -q -r $(STAMPS)/lowest.txt 'pytest>=8.2' 'hypothesis>=6.100' 'pymatting>=1.1.12'
+	.venv-lowest/bin/python -m pip install -q -r $(STAMPS)/lowest.txt 'pytest>=8.2' 'hypothesis>=6.100' 'pymatting>=1.1.12' 'rhino3dm>=8.17'
 	PYTHONPATH=python .venv-lowest/bin/python -m pytest -m "not slow"
 
 bench: setup ## speed, as ratios against public references in the same run

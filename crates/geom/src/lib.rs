@@ -4,6 +4,7 @@ mod aabb;
 mod bvh;
 mod closest;
 mod mesh;
+pub mod nurbs;
 mod ray;
 mod signed_distance;
 mod triangle;
