@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tress.kernel.matting import closed_form_alpha, unmixed_colors
+from tress.image.unmix import unmixed
+from tress.kernel.matting import closed_form_alpha
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ def matte_times(side: int = 400) -> MatteTimes:
 
     def ours() -> NDArray[np.float32]:
         alpha = closed_form_alpha(image, trimap=trimap, epsilon=1e-6, tolerance=1e-4).alpha
-        unmixed_colors(image, alpha=alpha)
+        unmixed(image.astype(np.float32), alpha=alpha)
         return alpha
 
     def theirs() -> NDArray[np.float64]:

@@ -5,7 +5,6 @@ pub mod gabor;
 pub mod gabor_kernel;
 pub mod matting;
 mod matting_cholesky;
-pub mod matting_foreground;
 mod matting_laplacian;
 mod matting_pyramid;
 pub mod orientation;

@@ -1,6 +1,6 @@
 //! Pictures of half the size, for the first guess of alpha.
 
-use crate::matting::{TRIMAP_UNKNOWN, is_known};
+use crate::matting::{TRIMAP_BACKGROUND, TRIMAP_FOREGROUND, TRIMAP_UNKNOWN, is_known};
 
 /// The picture of half the size, every pixel the mean of 2 x 2; an odd last row or column is left out.
 pub(crate) fn half_picture(color: &[[f64; 3]], width: usize, height: usize) -> Vec<[f64; 3]> {
@@ -26,6 +26,29 @@ pub(crate) fn half_trimap(trimap: &[u8], width: usize, height: usize) -> Vec<u8>
             if agree && is_known(first) { first } else { TRIMAP_UNKNOWN }
         })
         .collect()
+}
+
+/// The trimap, but known where all of the 3 x 3 pixels around in `half`, alpha of half the size, are within `near` of 0 or 1.
+pub(crate) fn settled_trimap(trimap: &[u8], width: usize, height: usize, half: &[f64], near: f64) -> Vec<u8> {
+    let (w, h) = (width / 2, height / 2);
+    let verdicts: Vec<u8> = (0..w * h).map(|i| verdict(half, w, h, i % w, i / w, near)).collect();
+    let verdict_at = |p: usize| verdicts[(p / width / 2).min(h - 1) * w + (p % width / 2).min(w - 1)];
+    trimap.iter().enumerate().map(|(p, &value)| if is_known(value) { value } else { verdict_at(p) }).collect()
+}
+
+fn verdict(half: &[f64], w: usize, h: usize, x: usize, y: usize, near: f64) -> u8 {
+    let (mut low, mut high) = (1.0f64, 0.0f64);
+    for row in y.saturating_sub(1)..(y + 2).min(h) {
+        for &alpha in &half[row * w + x.saturating_sub(1)..row * w + (x + 2).min(w)] {
+            low = low.min(alpha);
+            high = high.max(alpha);
+        }
+    }
+    match (high < near, low > 1.0 - near) {
+        (true, _) => TRIMAP_BACKGROUND,
+        (_, true) => TRIMAP_FOREGROUND,
+        _ => TRIMAP_UNKNOWN,
+    }
 }
 
 /// The value at pixel (x, y) of the full picture, linearly between the pixels of the half one (`w` x `h`).

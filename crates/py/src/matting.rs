@@ -1,17 +1,13 @@
 //! The matting of `tress-image` for Python.
 
-use numpy::{
-    IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods,
-};
+use numpy::{IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use tress_image::matting::{MattingSettings, closed_form_alpha};
-use tress_image::matting_foreground::{UnmixSettings, unmixed_colors};
 
-/// Adds the functions of the matting to the module.
+/// Adds the function of the matting to the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_function(wrap_pyfunction!(matting_alpha, module)?)?;
-    module.add_function(wrap_pyfunction!(matting_colors, module)?)
+    module.add_function(wrap_pyfunction!(matting_alpha, module)?)
 }
 
 /// Alpha (H, W), iterations, relative residual, whether it converged.
@@ -23,43 +19,18 @@ fn matting_alpha<'py>(
     epsilon: f64,
     tolerance: f64,
     max_iterations: usize,
+    settle: f64,
 ) -> PyResult<(Bound<'py, PyArray2<f32>>, usize, f64, bool)> {
     let [height, width] = [trimap.shape()[0], trimap.shape()[1]];
     let color = pixels(image.as_slice()?);
     let trimap = trimap.as_slice()?.to_vec();
-    let settings = MattingSettings { epsilon, tolerance, max_iterations, ..MattingSettings::default() };
+    let settings = MattingSettings { epsilon, tolerance, max_iterations, settle, ..MattingSettings::default() };
     let result = py
         .detach(|| closed_form_alpha(&color, &trimap, width, height, &settings))
         .map_err(|error| PyValueError::new_err(error.to_string()))?;
     let alpha: Vec<f32> = result.alpha.iter().map(|&a| a as f32).collect();
     let alpha = alpha.into_pyarray(py).reshape([height, width])?;
     Ok((alpha, result.outcome.iterations, result.outcome.residual, result.outcome.converged))
-}
-
-type Colors<'py> = Bound<'py, PyArray3<f32>>;
-
-/// Foreground (H, W, 3) and background (H, W, 3).
-#[pyfunction]
-fn matting_colors<'py>(
-    py: Python<'py>,
-    image: PyReadonlyArray3<'py, f32>,
-    alpha: PyReadonlyArray2<'py, f32>,
-    smoothness: f64,
-    gradient_weight: f64,
-) -> PyResult<(Colors<'py>, Colors<'py>)> {
-    let [height, width] = [alpha.shape()[0], alpha.shape()[1]];
-    if image.shape() != [height, width, 3] {
-        return Err(PyValueError::new_err("the image does not fit alpha"));
-    }
-    let color = pixels(image.as_slice()?);
-    let alpha: Vec<f64> = alpha.as_slice()?.iter().map(|&a| f64::from(a)).collect();
-    let settings = UnmixSettings { smoothness, gradient_weight, ..UnmixSettings::default() };
-    let result = py.detach(|| unmixed_colors(&color, &alpha, width, height, &settings));
-    let array = |colors: Vec<[f64; 3]>| {
-        let flat: Vec<f32> = colors.iter().flatten().map(|&v| v as f32).collect();
-        flat.into_pyarray(py).reshape([height, width, 3])
-    };
-    Ok((array(result.foreground)?, array(result.background)?))
 }
 
 fn pixels(flat: &[f32]) -> Vec<[f64; 3]> {

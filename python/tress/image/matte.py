@@ -1,8 +1,8 @@
 """The matte of a layer: how much of each pixel is hair, and what colours were mixed there.
 
-A trimap from the cut (shrunk and grown, as Chai et al. 2012), closed-form alpha and the two colours that it mixes, both
-found on coded colours, whose equal steps look equal; then all three are carried over to linear light. All is done in
-the box around the mask that the trimap leaves open.
+A trimap from the cut (shrunk and grown, as Chai et al. 2012), closed-form alpha, found on coded colours, whose equal
+steps look equal; then, in linear light, the two colours that were mixed. All is done in the box around the mask that
+the trimap leaves open.
 """
 
 from dataclasses import dataclass
@@ -14,11 +14,8 @@ from tress.base.errors import InputError
 from tress.base.params import Params, param
 from tress.image.color import require_photograph, srgb_to_linear
 from tress.image.trimap import trimap_of_mask
-from tress.kernel.matting import TRIMAP_BACKGROUND, Unmixed, closed_form_alpha, unmixed_colors
-
-_ALIKE = 1e-3
-"""Squared difference of colours (linear) below which they tell little about alpha."""
-_PROJECTIONS = 3
+from tress.image.unmix import unmixed
+from tress.kernel.matting import TRIMAP_BACKGROUND, closed_form_alpha
 
 
 @dataclass(frozen=True)
@@ -32,8 +29,9 @@ class MatteParams(Params):
     epsilon: float = param(1e-6, low=1e-9, high=1e-2, doc="Colour variance below which a window counts as flat.")
     tolerance: float = param(1e-4, low=1e-10, high=0.1, doc="Relative residual at which the solver stops.")
     max_iterations: int = param(300, low=1, high=10_000, doc="Most iterations of the solver.")
-    smoothness: float = param(1e-5, low=1e-9, high=1.0, doc="Pull of neighbouring colours on each other.")
-    gradient_weight: float = param(1.0, low=0.0, high=100.0, doc="Additional pull where alpha changes.")
+    settle: float = param(0.02, low=0.0, high=0.4, doc="Nearness to 0 or 1 at half the size that settles alpha.")
+    alpha_error: float = param(0.5, low=0.01, high=10.0, doc="Standard error that closed-form alpha is taken to have.")
+    variety: float = param(0.5, low=0.01, high=10.0, doc="Variance of the layer's colours at its rim, to that inside.")
 
 
 @dataclass(frozen=True)
@@ -90,39 +88,11 @@ def matte_of_mask(
         epsilon=params.epsilon,
         tolerance=params.tolerance,
         max_iterations=params.max_iterations,
+        settle=params.settle,
     )
-    coded = unmixed_colors(
-        image[box].astype(np.float32) / 255,
-        alpha=solved.alpha,
-        smoothness=params.smoothness,
-        gradient_weight=params.gradient_weight,
-    )
-    parts = _in_linear_light(solved.alpha, coded, linear[box])
-    alpha[box], foreground[box], background[box] = parts
+    parts = unmixed(linear[box], alpha=solved.alpha, alpha_error=params.alpha_error, variety=params.variety)
+    alpha[box], foreground[box], background[box] = parts.alpha, parts.foreground, parts.background
     return Matte(alpha, foreground, background, trimap, solved.iterations, solved.converged)
-
-
-def _in_linear_light(
-    alpha: NDArray[np.float32], coded: Unmixed, light: NDArray[np.float32]
-) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
-    """Alpha, foreground and background whose linear mixture is `light` (h, w, 3).
-
-    Coded colours do not add up, light does: half a dark hair before a bright backdrop is a good deal brighter, coded,
-    than half-way. So alpha is measured again between the two colours, in linear light; where they are nearly the same
-    colour, it stays what it was. Then both colours move the least that makes the mixture exact, as far as [0, 1] lets.
-    """
-    foreground, background = srgb_to_linear(coded.foreground), srgb_to_linear(coded.background)
-    apart = foreground - background
-    measured = ((light - background) * apart).sum(axis=-1) + _ALIKE * alpha
-    soft = (alpha > 0) & (alpha < 1)
-    linear_alpha = np.where(soft, np.clip(measured / ((apart**2).sum(axis=-1) + _ALIKE), 0, 1), alpha)
-    front = linear_alpha[..., None].astype(np.float32)
-    scale = 1 / (front**2 + (1 - front) ** 2)
-    for _ in range(_PROJECTIONS):
-        lack = (light - front * foreground - (1 - front) * background) * scale
-        foreground = np.clip(foreground + front * lack, 0, 1).astype(np.float32)
-        background = np.clip(background + (1 - front) * lack, 0, 1).astype(np.float32)
-    return front[..., 0], foreground, background
 
 
 def _box_of(mask: NDArray[np.bool_], *, margin: int) -> tuple[slice, slice]:
