@@ -4,13 +4,19 @@ import numpy as np
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
+from tress.model.atlas import Atlas
+from tress.model.attachment import Attachment
 from tress.model.camera import Camera
 from tress.model.document import Document
+from tress.model.group import Group
 from tress.model.head import Head
+from tress.model.keyframes import FRAMES, Keyframes
 from tress.model.mesh import Mesh
 from tress.model.recipe import Recipe
 from tress.model.strands import Strands
+from tress.model.strip import Strip
 from tress.model.texture import Texture
+from tress.model.tracks import INTERPOLATIONS
 
 NAMES = st.sampled_from(["id", "wind", "displayColor", "own_st", "st", "own_x", "normals", "color2", "widths"])
 STRAND_NAMES = st.sampled_from(["group", "displayOpacity", "own_", "extent"])
@@ -111,11 +117,121 @@ def recipes():
     return st.builds(Recipe, method=TEXT.filter(bool), seed=seed, parameters=parameters, inputs=parameters)
 
 
+def floats64(shape, *, low=-1e6, high=1e6):
+    """float64 arrays of finite numbers, negative zero and subnormals among them."""
+    return hnp.arrays(np.float64, shape, elements=st.floats(low, high))
+
+
+@st.composite
+def knot_vectors(draw, count):
+    """Knots of any degree over `count` control points, clamped or not, some of the inner ones repeated."""
+    degree = draw(st.integers(1, min(7, count - 1)))
+    steps = draw(st.lists(st.floats(0.125, 4), min_size=count + degree, max_size=count + degree))
+    knots = np.concatenate([[draw(st.floats(-4, 4))], steps]).cumsum()
+    if draw(st.booleans()):
+        knots[: degree + 1], knots[count:] = knots[degree], knots[count]
+    if count - degree > 2 and degree > 1 and draw(st.booleans()):
+        knots[degree + 2] = knots[degree + 1]
+    return knots
+
+
+@st.composite
+def attachments(draw, *, surface="head", triangles=1):
+    """Roots anywhere on a surface."""
+    first, second = draw(st.floats(0, 1)), draw(st.floats(0, 1))
+    return Attachment(
+        surface=surface,
+        triangle=draw(st.integers(0, triangles - 1)),
+        barycentric=[first, (1 - first) * second, (1 - first) * (1 - second)],
+        offset=draw(floats64(3, low=-1, high=1)),
+    )
+
+
+@st.composite
+def strips(draw, *, roots=st.none() | attachments(), groups=st.just(""), atlases=st.just("")):
+    """Strips of any degree and net."""
+    along, across = draw(st.integers(2, 6)), draw(st.integers(2, 4))
+    return Strip(
+        points=draw(floats64((along, across, 3))),
+        weights=draw(floats64((along, across), low=1e-3, high=1e3)),
+        knots_u=draw(knot_vectors(along)),
+        knots_v=draw(knot_vectors(across)),
+        root=draw(roots),
+        group=draw(groups),
+        atlas=draw(atlases),
+        hidden=draw(st.booleans()),
+        locked=draw(st.booleans()),
+    )
+
+
+@st.composite
+def keyframes(draw, *, targets=st.just("strip"), net=None):
+    """Keyframes of displacements, or of the positions of a net of the size `net`."""
+    moments = draw(st.integers(1, 4))
+    shape = net or (draw(st.integers(1, 3)), draw(st.integers(1, 3)))
+    times = np.cumsum([draw(st.floats(-10, 10)), *(draw(st.floats(0.01, 2)) for _ in range(moments - 1))])
+    interpolation = draw(st.sampled_from(INTERPOLATIONS))
+    tangents = st.none() | floats64((moments, *shape, 3)) if interpolation == "cubic" else st.none()
+    return Keyframes(
+        target=draw(targets),
+        times=times,
+        values=draw(floats64((moments, *shape, 3))),
+        tangents=draw(tangents),
+        interpolation=interpolation,
+        kind="position" if net else "displacement",
+        frame="root" if net else draw(st.sampled_from(FRAMES)),
+        loop=moments > 1 and draw(st.booleans()),
+    )
+
+
+@st.composite
+def atlases(draw):
+    """Small atlases with maps of several kinds."""
+    height, width = draw(st.integers(1, 4)), draw(st.integers(1, 4))
+    low = draw(floats32((draw(st.integers(1, 3)), 2), low=0, high=0.5))
+    maps = {
+        "normal": hnp.arrays(np.uint8, (height, width, 3)),
+        "flow": floats32((height, width, 2)),
+        "strand_id": hnp.arrays(np.int32, (height, width)),
+    }
+    return Atlas(
+        color=draw(hnp.arrays(np.uint8, (height, width, 4))),
+        regions=np.concatenate([low, low + np.float32(0.25)], axis=1),
+        maps=draw(st.fixed_dictionaries({}, optional=maps)),
+    )
+
+
+@st.composite
+def hairdos(draw):
+    """A ground, groups, an atlas, strips on and off the ground and keyframes of each kind, by identifier."""
+    ground = Mesh(
+        positions=draw(floats64((1, 3), low=-1, high=1)) + 0.1 * np.eye(4, 3), triangles=[[0, 1, 2], [0, 2, 3]]
+    )
+    options = {
+        "roots": st.none() | attachments(surface="ground", triangles=2),
+        "groups": st.sampled_from(["", "outer_group", "inner_group"]),
+        "atlases": st.just("atlas"),
+    }
+    first = draw(strips(**options))
+    return {
+        "ground": ground,
+        "outer_group": Group(hidden=draw(st.booleans()), locked=draw(st.booleans())),
+        "inner_group": Group(parent=draw(st.sampled_from(["", "outer_group"]))),
+        "atlas": draw(atlases()),
+        "strip": first,
+        "strip_b": draw(strips(**options)),
+        "motion": draw(keyframes(targets=st.sampled_from(["strip", "strip_b", "inner_group", "outer_group"]))),
+        "pose": draw(keyframes(net=first.weights.shape)),
+    }
+
+
 def records():
-    """Any record."""
-    return st.one_of(strands(), meshes(), textures(), heads(), cameras(), recipes())
+    """Any record that names no other."""
+    plain = strips(roots=st.none())
+    return st.one_of(strands(), meshes(), textures(), heads(), cameras(), recipes(), atlases(), plain)
 
 
 def documents(*, most=3):
-    """Documents of any records."""
-    return st.dictionaries(IDENTIFIERS, records(), max_size=most).map(Document)
+    """Documents of any records, some with strips that hang together."""
+    loose = st.dictionaries(IDENTIFIERS, records(), max_size=most)
+    return st.tuples(loose, st.just({}) | hairdos()).map(lambda parts: Document(parts[0] | parts[1]))

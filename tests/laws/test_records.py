@@ -6,14 +6,20 @@ import pickle
 import documents
 import pytest
 from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from tress.io.usd.mapping import prim_of, record_of
+from tress.model.atlas import Atlas
+from tress.model.attachment import Attachment
 from tress.model.camera import Camera
+from tress.model.group import Group
 from tress.model.head import Head
+from tress.model.keyframes import Keyframes
 from tress.model.mesh import Mesh
 from tress.model.recipe import Recipe
 from tress.model.records import RECORDS
 from tress.model.strands import Strands
+from tress.model.strip import Strip
 from tress.model.texture import Texture
 
 FIXTURES = {
@@ -23,6 +29,11 @@ FIXTURES = {
     Head: documents.heads(),
     Camera: documents.cameras(),
     Recipe: documents.recipes(),
+    Strip: documents.strips(),
+    Attachment: documents.attachments(),
+    Group: st.builds(Group, parent=documents.TEXT, hidden=st.booleans(), locked=st.booleans()),
+    Keyframes: documents.keyframes(),
+    Atlas: documents.atlases(),
 }
 LAX = settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
 

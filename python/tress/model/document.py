@@ -17,7 +17,7 @@ class Document:
 
     Identifiers are ASCII letters, digits and underscores, not beginning with a digit. A portrait holds `head` (`Head`),
     `hair` (`Strands`), `photo` (`Camera`) and `recipe` (`Recipe`). A document changes by `diff.apply` alone.
-    Raises `InputError` for other identifiers and values.
+    Raises `InputError` for other identifiers and values, and where a record names another that is not there.
     """
 
     records: Mapping[str, Record] = field(default_factory=dict)
@@ -29,6 +29,8 @@ class Document:
             if not isinstance(record, Record):
                 raise InputError(f"Record {identifier!r} is a {type(record).__name__}; a record was expected.")
         object.__setattr__(self, "records", FrozenMap(self.records))
+        for identifier, record in self.records.items():
+            record.check_in(self, name=identifier)
 
     __hash__ = None  # type: ignore[assignment]
 

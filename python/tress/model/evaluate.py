@@ -25,7 +25,7 @@ class Scene:
 
 def evaluate(document: Document, time: float = 0.0) -> Scene:
     """What there is to see of the document at `time` (seconds): each record says it for itself."""
-    found = {name: record.evaluated(document, time) for name, record in document.records.items()}
+    found = {name: record.evaluated(document, time, name=name) for name, record in document.records.items()}
     return Scene(
         strands={name: seen for name, seen in found.items() if isinstance(seen, Strands)},
         meshes={name: seen for name, seen in found.items() if isinstance(seen, Mesh)},

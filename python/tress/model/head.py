@@ -36,7 +36,7 @@ class Head(Record):
             if mask is not None and (mask.dtype != np.float32 or mask.ndim != 1):
                 raise InputError(f'Head mask "{name}" is {mask.dtype} {mask.shape}; float32 (V,) was expected.')
 
-    def evaluated(self, document: "Document", time: float) -> Mesh:
+    def evaluated(self, document: "Document", time: float, *, name: str) -> Mesh:
         """The head's mesh."""
         return self.mesh
 

@@ -41,7 +41,7 @@ class Mesh(Record):
         if self.texture is not None and self.corner_uv is None:
             raise InputError("Mesh.texture is given without Mesh.corner_uv; texture coordinates were expected.")
 
-    def evaluated(self, document: "Document", time: float) -> "Mesh":
+    def evaluated(self, document: "Document", time: float, *, name: str) -> "Mesh":
         """The mesh itself."""
         return self
 

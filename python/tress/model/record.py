@@ -80,8 +80,14 @@ class Record:
     def check(self) -> None:
         """Raises `InputError` where fields contradict each other. For records to override."""
 
-    def evaluated(self, document: "Document", time: float) -> "Strands | Mesh | None":
-        """What there is to see of this record at `time` (seconds), or None. For records to override."""
+    def check_in(self, document: "Document", *, name: str) -> None:
+        """Raises `InputError` where a record that this one names is absent or of another kind. For records to override.
+
+        `name` is the identifier of this record.
+        """
+
+    def evaluated(self, document: "Document", time: float, *, name: str) -> "Strands | Mesh | None":
+        """What there is to see of this record, `name`, at `time` (seconds), or None. For records to override."""
         return None
 
     def transformed(self, new_from_old: np.ndarray[Any, Any]) -> "Record":

@@ -68,7 +68,7 @@ class Strands(Record):
         if radius is not None and radius.size and not 0 <= radius.min() <= radius.max() <= MAX_RADIUS_M:
             raise InputError(f"Radii run from {radius.min()} to {radius.max()} m; 0 to {MAX_RADIUS_M} were expected.")
 
-    def evaluated(self, document: "Document", time: float) -> "Strands":
+    def evaluated(self, document: "Document", time: float, *, name: str) -> "Strands":
         """The strands themselves."""
         return self
 

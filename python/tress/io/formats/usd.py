@@ -4,14 +4,19 @@ Strands are `UsdGeomBasisCurves`, meshes `UsdGeomMesh` with their picture in a f
 parameters metadata. Opening and saving again loses nothing, to the bit.
 """
 
+from dataclasses import replace
 from pathlib import Path
 
 from tress import __version__
 from tress.base.errors import FormatError, InputError
 from tress.io.format import DOCUMENT, Format
+from tress.io.usd.foreign import foreign_document
 from tress.io.usd.mapping import prim_of, record_of
-from tress.io.usd.stage import SUFFIXES, read_stage, write_stage
+from tress.io.usd.prim import Prim
+from tress.io.usd.shown import shown_prims
+from tress.io.usd.stage import SUFFIXES, read_stage, write_stage, written_by_tress
 from tress.model.document import Document
+from tress.model.record import Record
 
 LAYOUT = 1  # of the prims; raised when a reader of the former could misread them
 
@@ -23,12 +28,22 @@ def save_document(document: Document, path: Path) -> None:
     """
     if path.suffix not in SUFFIXES:
         raise InputError(f"{path.name} has suffix {path.suffix!r}; one of {', '.join(SUFFIXES)} was expected.")
-    prims = [prim_of(name, record) for name, record in document.records.items()]
+    prims = [_shown(prim_of(name, record), record, document) for name, record in document.records.items()]
     write_stage(prims, path, data={"layout": LAYOUT, "version": __version__})
 
 
+def _shown(prim: Prim, record: Record, document: Document) -> Prim:
+    """The prim of a record with what there is to see of it in its document."""
+    return replace(prim, children=prim.children + shown_prims(prim.name, record, document))
+
+
 def open_document(path: Path) -> Document:
-    """The document of a file written by `save_document`. Raises `FormatError`."""
+    """The document of a file written by `save_document`, or the NURBS patches of another program's file as strips.
+
+    Raises `FormatError`.
+    """
+    if not written_by_tress(path):
+        return foreign_document(path)
     prims, data = read_stage(path)
     if data.get("layout") != LAYOUT:
         raise FormatError(f"{path} has layout {data.get('layout')!r}; this version reads layout {LAYOUT}.")

@@ -8,8 +8,10 @@ from tress.base.errors import FormatError
 from tress.io.usd.curves import strands_of, strands_prim
 from tress.io.usd.generic import record_fields, record_prim
 from tress.io.usd.photo_camera import camera_of, camera_prim
+from tress.io.usd.pictures import atlas_of, atlas_prim
 from tress.io.usd.prim import Prim
 from tress.io.usd.surface import mesh_of, mesh_prim
+from tress.model.atlas import Atlas
 from tress.model.camera import Camera
 from tress.model.mesh import Mesh
 from tress.model.record import Record
@@ -29,6 +31,7 @@ MAPPINGS: Mapping[type[Record], Mapped] = {
     Strands: Mapped(strands_prim, strands_of),
     Mesh: Mapped(mesh_prim, mesh_of),
     Camera: Mapped(camera_prim, camera_of),
+    Atlas: Mapped(atlas_prim, atlas_of),
 }
 
 

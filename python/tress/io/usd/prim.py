@@ -20,7 +20,8 @@ class Picture:
 class Attribute:
     """A value under its USD type name, e.g. "point3f[]", with what USD says about primvars.
 
-    `connection` is a path below the root prim that the attribute takes its value from (shading only).
+    `connection` is a path below the root prim that the attribute takes its value from (shading only). `samples` holds
+    values at times, in seconds.
     """
 
     type: str
@@ -30,6 +31,7 @@ class Attribute:
     uniform: bool = False
     connection: str = ""
     shape: tuple[int, ...] = ()
+    samples: Mapping[float, Value] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,13 @@ the file is what makes a new state visible, and a crash before leaves the old fi
 # `pxr` comes without type stubs.
 
 import hashlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pxr import Gf, Sdf, Tf, Usd, UsdValidation, Vt
+from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdValidation, Vt
 
 from tress.base.errors import FormatError, OutputError
 from tress.io.atomic import atomic_path, write_bytes
@@ -25,6 +26,7 @@ from tress.io.usd.prim import Attribute, Picture, Prim
 ROOT = "tress"
 TEXTURES = "textures"
 SUFFIXES = (".usdc", ".usda", ".usd")
+FRAMES_PER_SECOND = 24.0
 
 
 def write_stage(prims: list[Prim], path: Path, *, data: Mapping[str, Any]) -> None:
@@ -43,6 +45,7 @@ def write_stage(prims: list[Prim], path: Path, *, data: Mapping[str, Any]) -> No
         layer.customLayerData = {"tress": dict(data)}
         for prim in prims:
             _write_prim(root, prim, pictures)
+        _write_time_range(layer, prims)
     pictures.write()
     with atomic_path(path) as temporary:
         _export(layer, temporary)
@@ -51,8 +54,7 @@ def write_stage(prims: list[Prim], path: Path, *, data: Mapping[str, Any]) -> No
 
 def read_stage(path: Path) -> tuple[list[Prim], dict[str, Any]]:
     """The prims under the root, and the metadata of the file. Raises `FormatError` where Tress did not write it."""
-    if not path.is_file():
-        raise FormatError(f"{path} is no file; a USD file was expected.")
+    _expect_file(path)
     try:
         layer = Sdf.Layer.OpenAsAnonymous(str(path))
         root = layer.GetPrimAtPath(f"/{ROOT}") if layer else None
@@ -67,12 +69,76 @@ def read_stage(path: Path) -> tuple[list[Prim], dict[str, Any]]:
         raise FormatError(f"{path} is damaged.") from error
 
 
+@dataclass(frozen=True)
+class ForeignPrim:
+    """A prim of another program's file; `world_from_prim` (4, 4) leads to metres, Y up."""
+
+    prim: Prim
+    world_from_prim: np.ndarray[Any, Any]
+
+
+def read_foreign(path: Path, *, type_name: str) -> list[ForeignPrim]:
+    """All prims of one type in a file that any program wrote, composed, with time samples in seconds.
+
+    Prims that move as a whole are where they are at rest. Raises `FormatError` where it is no USD file.
+    """
+    try:
+        stage = Usd.Stage.Open(str(path))
+        scale, z_up = UsdGeom.GetStageMetersPerUnit(stage), UsdGeom.GetStageUpAxis(stage) == "Z"
+        found = [prim for prim in stage.Traverse() if prim.GetTypeName() == type_name]
+        return [ForeignPrim(_composed(prim), _axes(scale, z_up) @ _world_from_prim(prim)) for prim in found]
+    except Tf.ErrorException as error:
+        raise FormatError(f"{path} is no USD file, or it is damaged.") from error
+
+
+def _axes(scale: float, z_up: bool) -> np.ndarray[Any, Any]:
+    """Metres and Y up from a stage's units and axes."""
+    turn = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]) if z_up else np.eye(3)
+    matrix = np.eye(4)
+    matrix[:3, :3] = scale * turn
+    return matrix
+
+
+def _world_from_prim(prim: Usd.Prim) -> np.ndarray[Any, Any]:
+    # USD multiplies row vectors.
+    return np.array(UsdGeom.Xformable(prim).ComputeLocalToWorldTransform(Usd.TimeCode.Default())).T
+
+
+def _composed(prim: Usd.Prim) -> Prim:
+    rate = prim.GetStage().GetTimeCodesPerSecond()
+    attributes = {}
+    for attribute in prim.GetAuthoredAttributes():
+        kind = attribute.GetTypeName()
+        samples = {time / rate: _plain(kind, attribute.Get(time)) for time in attribute.GetTimeSamples()}
+        attributes[attribute.GetName()] = Attribute(str(kind), _plain(kind, attribute.Get()), samples=samples)
+    return Prim(prim.GetName(), prim.GetTypeName(), attributes)
+
+
+def _plain(kind: Sdf.ValueTypeName, value: Any) -> Any:
+    return None if isinstance(value, Sdf.AssetPath) else _plain_value(kind, value, Path())
+
+
 def validation_errors(path: Path) -> list[str]:
     """What USD's own validators say against a file: empty if nothing."""
     stage = Usd.Stage.Open(str(path))
     validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
     found = UsdValidation.ValidationContext(validators).Validate(stage)
     return [f"{error.GetIdentifier()}: {error.GetMessage()}" for error in found]
+
+
+def written_by_tress(path: Path) -> bool:
+    """Whether a file holds a document of Tress. Raises `FormatError` where it is no USD file."""
+    _expect_file(path)
+    try:
+        layer = Sdf.Layer.OpenAsAnonymous(str(path), metadataOnly=True)
+        return isinstance(layer.customLayerData.get("tress") if layer else None, dict)
+    except Tf.ErrorException as error:
+        raise FormatError(f"{path} is no USD file, or it is damaged.") from error
+
+
+def _expect_file(path: Path) -> None:
+    if not path.is_file():
+        raise FormatError(f"{path} is no file; a USD file was expected.")
 
 
 class _Pictures:
@@ -117,6 +183,22 @@ def _export(layer: Sdf.Layer, path: Path) -> None:
         raise OutputError(f"{path.parent} could not be written; nothing was changed.")
 
 
+def _write_time_range(layer: Sdf.Layer, prims: Iterable[Prim]) -> None:
+    times = sorted(set(_times(prims)))
+    if times:
+        layer.pseudoRoot.SetInfo("timeCodesPerSecond", FRAMES_PER_SECOND)
+        layer.pseudoRoot.SetInfo("framesPerSecond", FRAMES_PER_SECOND)
+        layer.pseudoRoot.SetInfo("startTimeCode", times[0] * FRAMES_PER_SECOND)
+        layer.pseudoRoot.SetInfo("endTimeCode", times[-1] * FRAMES_PER_SECOND)
+
+
+def _times(prims: Iterable[Prim]) -> Iterator[float]:
+    for prim in prims:
+        for attribute in prim.attributes.values():
+            yield from attribute.samples
+        yield from _times(prim.children)
+
+
 def _write_prim(parent: Sdf.PrimSpec, prim: Prim, pictures: _Pictures) -> None:
     spec = Sdf.PrimSpec(parent, prim.name, Sdf.SpecifierDef, prim.type)
     if prim.data:
@@ -138,6 +220,8 @@ def _write_attribute(prim: Sdf.PrimSpec, name: str, attribute: Attribute, pictur
     spec = Sdf.AttributeSpec(prim, name, kind, variability, custom)
     if attribute.value is not None:
         spec.default = _usd_value(kind, attribute.value, pictures)
+    for time, value in attribute.samples.items():
+        prim.layer.SetTimeSample(spec.path, time * FRAMES_PER_SECOND, _usd_value(kind, value, pictures))
     if attribute.interpolation:
         spec.SetInfo("interpolation", attribute.interpolation)
     if attribute.element_size != 1:
@@ -161,7 +245,9 @@ def _usd_value(kind: Sdf.ValueTypeName, value: Any, pictures: _Pictures) -> Any:
         return value
     if kind.isArray:
         return type(kind.defaultValue).FromNumpy(value)
-    return Gf.Matrix4d(value.tolist()) if kind == Sdf.ValueTypeNames.Matrix4d else Gf.Vec2f(*value.tolist())
+    if kind == Sdf.ValueTypeNames.Matrix4d:
+        return Gf.Matrix4d(value.tolist())
+    return (Gf.Vec2d if kind == Sdf.ValueTypeNames.Double2 else Gf.Vec2f)(*value.tolist())
 
 
 def _read_prim(spec: Sdf.PrimSpec, folder: Path) -> Prim:

@@ -59,12 +59,17 @@ def mesh_of(prim: Prim) -> Mesh:
 
 
 def _material(texture: Texture) -> Prim:
+    inputs = {"inputs:diffuseColor": Attribute("color3f", connection="../picture.outputs:rgb")}
+    outputs = {"outputs:rgb": Attribute("float3")}
+    if texture.pixels.shape[2] == 4:
+        inputs["inputs:opacity"] = Attribute("float", connection="../picture.outputs:a")
+        outputs["outputs:a"] = Attribute("float")
     shader = Prim(
         "surface",
         "Shader",
         {
             "info:id": Attribute("token", "UsdPreviewSurface", uniform=True),
-            "inputs:diffuseColor": Attribute("color3f", connection="../picture.outputs:rgb"),
+            **inputs,
             "inputs:roughness": Attribute("float", 0.9),
             "outputs:surface": Attribute("token"),
         },
@@ -79,7 +84,7 @@ def _material(texture: Texture) -> Prim:
             "inputs:wrapS": Attribute("token", "clamp"),
             "inputs:wrapT": Attribute("token", "clamp"),
             "inputs:st": Attribute("float2", connection="../coordinates.outputs:result"),
-            "outputs:rgb": Attribute("float3"),
+            **outputs,
         },
     )
     coordinates = Prim(
