@@ -10,7 +10,7 @@ from tress.base.errors import InputError
 from tress.image.orient import OrientParams, brightness, orientation_map
 from tress.kernel.image import GaborSizes, gabor_responses, orient
 
-ONE_ROUND = OrientParams(rounds=0, kernel_scale=1.0, stretch=1.0)
+ONE_ROUND = OrientParams(rounds=0, kernel_scale=1.0, angles="between")
 
 
 def stripes(angle, *, size=48, wavelength=4.0):
@@ -24,6 +24,14 @@ def undirected_degrees(a, b):
     return np.rad2deg(np.minimum(apart, np.pi - apart))
 
 
+def test_the_defaults_are_the_paper_s():
+    params = OrientParams()
+    sizes = (params.sigma_u, params.sigma_v, params.wavelength, params.orientations)
+    assert sizes == (1.8, 2.4, 4.0, 32)
+    assert params.rounds in (1, 2)
+    assert (params.stretch, params.polarity, params.angles, params.negatives) == (1.0, "bright", "bins", "counted")
+
+
 @given(st.floats(0, 3.14159))
 def test_crests_run_along_the_stripes(angle):
     found = orientation_map(stripes(angle), mask=np.ones((48, 48), bool), params=ONE_ROUND)
@@ -31,7 +39,7 @@ def test_crests_run_along_the_stripes(angle):
 
 
 def test_angles_on_the_bins_are_multiples_of_their_distance():
-    params = OrientParams(rounds=0, kernel_scale=1.0, stretch=1.0, angles="bins")
+    params = OrientParams(rounds=0, kernel_scale=1.0)
     found = orientation_map(stripes(0.3), mask=np.ones((48, 48), bool), params=params)
     bins = found.angle / (np.pi / 32)
     np.testing.assert_allclose(bins, np.rint(bins), atol=1e-4)
@@ -123,7 +131,7 @@ def test_valleys_beside_a_line_get_no_confidence():
 def test_dark_strands_are_found_where_asked_for():
     image = 1 - stripes(0.4)
     for polarity in ("dark", "both"):
-        params = OrientParams(rounds=0, kernel_scale=1.0, stretch=1.0, polarity=polarity)
+        params = OrientParams(rounds=0, kernel_scale=1.0, angles="between", polarity=polarity)
         found = orientation_map(image, mask=np.ones(image.shape, bool), params=params)
         assert undirected_degrees(found.angle[24, 24], 0.4) < 0.2
 
@@ -157,7 +165,7 @@ def test_confident_angles_are_those_of_the_rendered_strands(open_data, case):
     truth = np.load(open_data(f"synthetic/{case}/truth.npz"))
     pixels = cv2.imread(str(open_data(f"synthetic/{case}/photo.png")))[..., ::-1].copy()
     mask = truth["hair_mask"] > 127
-    found = orientation_map(brightness(pixels), mask=mask)
+    found = orientation_map(brightness(pixels), mask=mask, params=OrientParams.robust())
     confident = mask & (found.confidence > 0.3) & np.isfinite(truth["orientation"])
     assert confident.sum() > 0.1 * mask.sum()
     assert np.median(undirected_degrees(found.angle, truth["orientation"])[confident]) < 10

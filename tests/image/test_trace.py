@@ -16,7 +16,7 @@ from tress.image.trace import TraceParams, sampled, traced_strands
 from tress.kernel.image import ridge_seeds, trace
 
 SIZE = 96
-PAPER = OrientParams(kernel_scale=1.0, stretch=1.0, rounds=1)
+PAPER = OrientParams(kernel_scale=1.0, rounds=1)
 
 
 def drawing(curves, *, size=SIZE):
@@ -52,6 +52,13 @@ def parts(strands):
 
 def longest(strands):
     return max(parts(strands), key=len)
+
+
+def test_the_defaults_are_the_paper_s():
+    params = TraceParams()
+    assert (params.high, params.low, params.epsilon) == (0.3, 0.05, 0.2)
+    assert (params.health, params.step_px, params.max_bend) == (5, 0.75, np.pi / 6)
+    assert (params.min_length_px, params.smoothing_px) == (0.0, 0.0)
 
 
 @pytest.mark.parametrize("degrees", [0, 10, 37, 45, 80, 90, 135, 170])
@@ -195,7 +202,6 @@ def test_any_map_gives_strands_inside_the_mask(height, width, seed, unknown):
         step_px=0.75,
         max_bend=0.5,
         reach_px=1.0,
-        overlap_px=1e6,
         min_length_px=0.0,
         smoothing_px=1.0,
     )

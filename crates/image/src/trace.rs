@@ -15,8 +15,6 @@ use crate::ridges::seeds;
 
 /// Steps over which the curvature is measured that an uncertain thread keeps.
 const CURVATURE_STEPS: usize = 8;
-/// Cosine of the angle within which two curves run along each other (20 degrees).
-const ALONG: f64 = 0.94;
 /// A curve that comes back to a pixel after this many of its own vertices runs in a circle.
 const RETURN_STEPS: u32 = 24;
 
@@ -37,8 +35,6 @@ pub struct TraceParams {
     pub max_bend: f64,
     /// Distance across the strand at which its flanks are sampled, pixels.
     pub reach_px: f64,
-    /// A curve that runs along an earlier one for longer than this ends where it met it, pixels.
-    pub overlap_px: f64,
     /// Shorter curves are dropped, pixels.
     pub min_length_px: f64,
     /// Standard deviation of the smoothing along the finished curve, pixels; 0 for none.
@@ -81,10 +77,10 @@ pub fn trace(angle: &[f32], confidence: Plane<'_>, mask: &[bool], params: TraceP
     let mut visits = Visits { stamp: vec![0; mask.len()], at: vec![0; mask.len()], current: 0 };
     let mut traced = Traced { offsets: vec![0], ..Traced::default() };
     for seed in seeds(confidence, angle, params.high, params.epsilon, params.reach_px) {
-        if taken.any(seed as usize) || !mask[seed as usize] {
+        if taken.pixels[seed as usize] || !mask[seed as usize] {
             continue;
         }
-        let curve = field.curve(seed as usize, &mut visits, &taken);
+        let curve = field.curve(seed as usize, &mut visits);
         curve.iter().for_each(|vertex| taken.take(vertex, params.reach_px));
         let length: f64 = curve.windows(2).map(|pair| pair[0].point.distance(pair[1].point)).sum();
         if curve.len() >= 2 && length >= params.min_length_px {
@@ -94,29 +90,20 @@ pub fn trace(angle: &[f32], confidence: Plane<'_>, mask: &[bool], params: TraceP
     Ok(traced)
 }
 
-/// Pixels that traced curves cover, with their direction there: no seeds any more, and no place for a second curve.
+/// Pixels that traced curves cover: no seeds any more.
 struct Taken {
-    direction: Vec<[f32; 2]>,
+    pixels: Vec<bool>,
     width: usize,
     height: usize,
 }
 
 impl Taken {
     fn new(like: Plane<'_>) -> Self {
-        Self { direction: vec![[0.0; 2]; like.values.len()], width: like.width, height: like.height }
+        Self { pixels: vec![false; like.values.len()], width: like.width, height: like.height }
     }
 
-    fn any(&self, pixel: usize) -> bool {
-        self.direction[pixel] != [0.0; 2]
-    }
-
-    /// Does a curve in about this direction cover the pixel?
-    fn along(&self, pixel: usize, direction: DVec2) -> bool {
-        let [x, y] = self.direction[pixel];
-        DVec2::new(f64::from(x), f64::from(y)).dot(direction).abs() > ALONG
-    }
-
-    /// Takes the pixels within three quarters of the flanks' distance of a certain vertex.
+    /// Takes the pixels within three quarters of the flanks' distance of a certain vertex. Those at an uncertain one are
+    /// not the curve's own: another strand lies over it there, and keeps its seeds.
     fn take(&mut self, vertex: &Vertex, reach_px: f64) {
         if !vertex.certain {
             return;
@@ -129,7 +116,7 @@ impl Taken {
         for y in span(vertex.point.y, self.height) {
             for x in span(vertex.point.x, self.width) {
                 if vertex.point.distance(DVec2::new(x as f64 + 0.5, y as f64 + 0.5)) <= radius {
-                    self.direction[y * self.width + x] = vertex.direction.as_vec2().to_array();
+                    self.pixels[y * self.width + x] = true;
                 }
             }
         }
@@ -207,7 +194,7 @@ impl<'a> Field<'a> {
     }
 
     /// The curve through a seed: both ways, with uncertain ends trimmed.
-    fn curve(&self, seed: usize, visits: &mut Visits, taken: &Taken) -> Vec<Vertex> {
+    fn curve(&self, seed: usize, visits: &mut Visits) -> Vec<Vertex> {
         let width = self.confidence.width;
         let start = DVec2::new((seed % width) as f64 + 0.5, (seed / width) as f64 + 0.5);
         let Some(direction) = self.direction(start, DVec2::X) else { return Vec::new() };
@@ -215,8 +202,8 @@ impl<'a> Field<'a> {
         let confidence = self.confidence.bilinear(point.x, point.y);
         let first = Vertex { point, direction, certain: true, occluded: false, confidence };
         visits.current += 1;
-        let forth = self.half(first, 1, visits, taken);
-        let mut curve = self.half(Vertex { direction: -direction, ..first }, -1, visits, taken);
+        let forth = self.half(first, 1, visits);
+        let mut curve = self.half(Vertex { direction: -direction, ..first }, -1, visits);
         curve.reverse();
         curve.push(first);
         curve.extend(forth);
@@ -224,12 +211,11 @@ impl<'a> Field<'a> {
     }
 
     /// Vertices after `first`, one way (1 or -1), up to the last certain one.
-    fn half(&self, first: Vertex, way: i32, visits: &mut Visits, taken: &Taken) -> Vec<Vertex> {
+    fn half(&self, first: Vertex, way: i32, visits: &mut Visits) -> Vec<Vertex> {
         let mut steps: Vec<Vertex> = Vec::new();
         let mut last = first;
         let mut turn = 0.0;
         let mut health = self.params.health;
-        let mut shared = 0;
         let longest = 4 * (self.confidence.width + self.confidence.height);
         while steps.len() < longest {
             let point = last.point + self.params.step_px * last.direction;
@@ -240,11 +226,6 @@ impl<'a> Field<'a> {
                 break;
             }
             steps.push(last);
-            shared = if last.certain && taken.along(pixel, last.direction) { shared + 1 } else { 0 };
-            if shared as f64 * self.params.step_px > self.params.overlap_px {
-                steps.truncate(steps.len() - shared + 1);
-                break;
-            }
             if last.certain {
                 turn = mean_turn(first.direction, &steps);
             }

@@ -20,7 +20,6 @@ const TRACING: TraceParams = TraceParams {
     step_px: 0.75,
     max_bend: 0.5,
     reach_px: 1.5,
-    overlap_px: 6.0,
     min_length_px: 2.0,
     smoothing_px: 1.0,
 };

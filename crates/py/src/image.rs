@@ -80,7 +80,7 @@ fn image_seeds<'py>(
 
 /// Points (N, 2), offsets (S + 1,), occluded (N,), confidence (N,).
 #[pyfunction]
-#[pyo3(signature = (angle, confidence, mask, *, high, low, epsilon, health, step_px, max_bend, reach_px, overlap_px, min_length_px, smoothing_px))]
+#[pyo3(signature = (angle, confidence, mask, *, high, low, epsilon, health, step_px, max_bend, reach_px, min_length_px, smoothing_px))]
 fn image_trace<'py>(
     py: Python<'py>,
     angle: Plane32<'py>,
@@ -93,23 +93,11 @@ fn image_trace<'py>(
     step_px: f64,
     max_bend: f64,
     reach_px: f64,
-    overlap_px: f64,
     min_length_px: f64,
     smoothing_px: f64,
 ) -> PyResult<Curves<'py>> {
     let (angle, view, mask) = (angle.as_slice()?, plane(&confidence)?, mask.as_slice()?);
-    let params = TraceParams {
-        high,
-        low,
-        epsilon,
-        health,
-        step_px,
-        max_bend,
-        reach_px,
-        overlap_px,
-        min_length_px,
-        smoothing_px,
-    };
+    let params = TraceParams { high, low, epsilon, health, step_px, max_bend, reach_px, min_length_px, smoothing_px };
     let traced = py.detach(|| trace(angle, view, mask, params)).map_err(refused)?;
     let points: Vec<f32> = traced.points.iter().flat_map(|p| [p.x as f32, p.y as f32]).collect();
     let offsets: Vec<i64> = traced.offsets.iter().map(|&o| o as i64).collect();

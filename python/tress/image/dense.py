@@ -9,7 +9,7 @@ Limits: where strands of two directions cross, their mean comes out; flat region
 that has one.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import cv2
@@ -87,7 +87,8 @@ def _gabor(bright: Array, inside: Array) -> Array:
 
     The map's margin around the mask is kept: along most of its outline hair runs parallel to it.
     """
-    found = orientation_map(bright, mask=inside, params=OrientParams(rounds=0))
+    params = replace(OrientParams.robust(), rounds=0, angles="between")
+    found = orientation_map(bright, mask=inside, params=params)
     weight = found.confidence**2
     twice = 2 * np.nan_to_num(found.angle)
     return np.dstack([np.cos(twice) * weight, np.sin(twice) * weight, weight]).astype(np.float32)

@@ -18,38 +18,61 @@ from tress.kernel.image import GaborSizes, orient
 
 @dataclass(frozen=True)
 class OrientParams(Params):
-    """Settings of `orientation_map`; the defaults are the paper's where it gives them."""
+    """Settings of `orientation_map`. The defaults are the paper's; what it does not know is off by default."""
 
-    sigma_u: float = param(1.8, low=0.3, high=16.0, unit="px", doc="Width of the kernels across the strand.")
-    sigma_v: float = param(2.4, low=0.3, high=16.0, unit="px", doc="Length of the kernels along the strand.")
-    wavelength: float = param(4.0, low=2.0, high=32.0, unit="px", doc="Distance of neighbouring strands.")
-    orientations: int = param(32, low=4, high=128, doc="Kernels over half a turn; an even number.")
+    sigma_u: float = param(
+        1.8, low=0.3, high=16.0, unit="px", doc="Width of the kernels across the strand (σu, below eq. 4)."
+    )
+    sigma_v: float = param(
+        2.4, low=0.3, high=16.0, unit="px", doc="Length of the kernels along the strand (σv, below eq. 4)."
+    )
+    wavelength: float = param(
+        4.0, low=2.0, high=32.0, unit="px", doc="Distance of neighbouring strands (λ, below eq. 4)."
+    )
+    orientations: int = param(32, low=4, high=128, doc="Kernels over half a turn, an even number (above eq. 2).")
     kernel_scale: float = param(
         0.0,
         low=0.0,
         high=4.0,
-        doc="Factor on the kernels' sizes; 0 lets it follow the size of the hair in the picture.",
+        doc="Factor on the kernels' sizes, which should be proportional to the visible strands'; 0 lets it follow the "
+        "size of the hair in the picture.",
     )
     stretch: float = param(
-        3.0,
+        1.0,
         low=0.5,
         high=8.0,
         doc="Factor on the length of the kernels alone; 1 is the paper's, longer ones see through the noise of photos.",
     )
-    rounds: int = param(2, low=0, high=4, doc="How often the confidence is filtered again, to drop false ridges.")
+    rounds: int = param(
+        2, low=0, high=4, doc="How often the confidence is filtered again (1 or 2 in the paper), to drop false ridges."
+    )
     white_percentile: float = param(
-        97.0, low=50.0, high=100.0, unit="%", doc="Share of the hair's pixels whose confidence is at most 1."
+        97.0,
+        low=50.0,
+        high=100.0,
+        unit="%",
+        doc="Share of the hair's pixels whose confidence is at most 1; the paper's thresholds ask for such a scale.",
     )
     margin_px: int = param(6, low=0, high=64, unit="px", doc="How far beyond the mask orientation is measured.")
-    polarity: str = choice("bright", options=("bright", "dark", "both"), doc="Which ridges of brightness are strands.")
+    polarity: str = choice(
+        "bright", options=("bright", "dark", "both"), doc="Which ridges of brightness are strands; bright is arg max F."
+    )
     angles: str = choice(
-        "between", options=("between", "bins"), doc="Whether angles lie between those of the kernels or on them."
+        "bins", options=("between", "bins"), doc="Whether angles lie on those of the kernels (arg max F) or between."
     )
     negatives: str = choice(
-        "ignored",
+        "counted",
         options=("ignored", "counted"),
-        doc="Whether confidence counts negative responses, as the paper does; they mistake valleys for strands across.",
+        doc="Whether confidence counts negative responses, as eq. 3 does; they mistake valleys for strands across.",
     )
+
+    @classmethod
+    def robust(cls) -> "OrientParams":
+        """For photographs: the kernels longer, and no confidence from negative responses.
+
+        The paper's own see noise, and the valleys between strands, as strands; see docs/portrait.md for both.
+        """
+        return cls(stretch=3.0, negatives="ignored")
 
 
 @dataclass(frozen=True, eq=False)

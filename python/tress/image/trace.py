@@ -16,32 +16,38 @@ _REACH_PX = 1.5
 
 @dataclass(frozen=True)
 class TraceParams(Params):
-    """Settings of `traced_strands`; the defaults are the paper's where it gives them."""
+    """Settings of `traced_strands`. The defaults are the paper's; what it does not know is off by default."""
 
-    high: float = param(0.3, low=0.0, high=1.0, doc="Confidence above which a pixel may be a seed (w_high).")
-    low: float = param(0.05, low=0.0, high=1.0, doc="Confidence below which a strand becomes uncertain (w_low).")
-    epsilon: float = param(0.2, low=0.0, high=1.0, doc="Share by which a seed stands out over its flanks.")
-    health: int = param(5, low=1, high=1000, unit="steps", doc="Steps that a strand survives uncertain.")
-    step_px: float = param(0.75, low=0.05, high=8.0, unit="px", doc="Length of a step.")
-    max_bend: float = param(float(np.pi / 6), low=0.01, high=1.57, unit="rad", doc="Largest bend of a certain step.")
+    high: float = param(
+        0.3, low=0.0, high=1.0, doc="Confidence above which a pixel may be a seed (w_high, below eq. 4)."
+    )
+    low: float = param(
+        0.05, low=0.0, high=1.0, doc="Confidence below which a strand becomes uncertain (w_low, below eq. 4)."
+    )
+    epsilon: float = param(0.2, low=0.0, high=1.0, doc="Share by which a seed stands out over its flanks (ε, eq. 4).")
+    health: int = param(5, low=1, high=1000, unit="steps", doc='Uncertain steps that end a strand ("health point").')
+    step_px: float = param(0.75, low=0.05, high=8.0, unit="px", doc='Length of a step (δ, "75% of the pixel width").')
+    max_bend: float = param(
+        float(np.pi / 6), low=0.01, high=1.57, unit="rad", doc="Largest bend of a certain step (θ_max, rules 3 and 4)."
+    )
     reach_px: float = param(
         0.0,
         low=0.0,
         high=16.0,
         unit="px",
-        doc="Distance of the flanks of a ridge; 0: three eighths of the kernels' wavelength.",
+        doc='Distance of the flanks p_L and p_R ("nearby" in the paper); 0: three eighths of the kernels\' wavelength.',
     )
-    overlap_px: float = param(
-        6.0,
-        low=0.0,
-        high=1e6,
-        unit="px",
-        doc="A strand that runs along an earlier one for longer ends where they met; the paper lets it go on.",
+    min_length_px: float = param(
+        0.0, low=0.0, high=1000.0, unit="px", doc="Shorter strands are dropped; the paper keeps all."
     )
-    min_length_px: float = param(6.0, low=0.0, high=1000.0, unit="px", doc="Shorter strands are dropped.")
     smoothing_px: float = param(
-        2.0, low=0.0, high=50.0, unit="px", doc="Width over which finished strands are smoothed; the paper's are not."
+        0.0, low=0.0, high=50.0, unit="px", doc="Width over which finished strands are smoothed; the paper's are not."
     )
+
+    @classmethod
+    def robust(cls) -> "TraceParams":
+        """For photographs: what is too short to be a strand is dropped, and the steps of the pixels smoothed away."""
+        return cls(min_length_px=6.0, smoothing_px=2.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +115,6 @@ def traced_strands(
         step_px=params.step_px,
         max_bend=params.max_bend,
         reach_px=params.reach_px or _REACH_PX * orientation.kernel_scale,
-        overlap_px=params.overlap_px,
         min_length_px=params.min_length_px,
         smoothing_px=params.smoothing_px,
     )

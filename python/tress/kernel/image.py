@@ -100,7 +100,6 @@ def trace(
     step_px: float,
     max_bend: float,
     reach_px: float,
-    overlap_px: float,
     min_length_px: float,
     smoothing_px: float,
 ) -> Curves:
@@ -121,7 +120,6 @@ def trace(
         step_px=float(step_px),
         max_bend=float(max_bend),
         reach_px=float(reach_px),
-        overlap_px=float(overlap_px),
         min_length_px=float(min_length_px),
         smoothing_px=float(smoothing_px),
     )

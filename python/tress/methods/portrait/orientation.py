@@ -11,7 +11,11 @@ HAIR_ALPHA = 0.5
 
 
 def orientation(
-    pixels: NDArray[np.uint8], *, alpha: NDArray[np.float32], params: OrientParams = OrientParams(), report: Report
+    pixels: NDArray[np.uint8],
+    *,
+    alpha: NDArray[np.float32],
+    params: OrientParams = OrientParams.robust(),
+    report: Report,
 ) -> OrientationMap:
     """Orientation of the hair in the photo `pixels` (H, W, 3) uint8; `alpha` (H, W) says how much hair a pixel has."""
     mask = alpha > HAIR_ALPHA

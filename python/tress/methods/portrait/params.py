@@ -16,14 +16,18 @@ from tress.methods.portrait.volume import VolumeParams
 
 @dataclass(frozen=True)
 class PortraitParams(Params):
-    """Parameters of a reconstruction: one field a stage, named like the stage, and the seed of all that is random."""
+    """Parameters of a reconstruction: one field a stage, named like the stage, and the seed of all that is random.
+
+    Orientation and tracing begin with their presets for photographs; `OrientParams()` and `TraceParams()` are the
+    paper's own.
+    """
 
     seed: int = param(0, low=0, high=2**63 - 1, doc="Seed of all that is random.")
     head: FitParams = field(default_factory=FitParams)
     layers: LayerParams = field(default_factory=LayerParams)
     matte: MatteParams = field(default_factory=MatteParams)
-    orientation: OrientParams = field(default_factory=OrientParams)
-    trace: TraceParams = field(default_factory=TraceParams)
+    orientation: OrientParams = field(default_factory=OrientParams.robust)
+    trace: TraceParams = field(default_factory=TraceParams.robust)
     depth: DepthParams = field(default_factory=DepthParams)
     volume: VolumeParams = field(default_factory=VolumeParams)
     strands: GrowParams = field(default_factory=GrowParams)

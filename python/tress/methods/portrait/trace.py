@@ -16,7 +16,7 @@ def trace(
     *,
     alpha: NDArray[np.float32],
     foreground: NDArray[np.float32],
-    params: TraceParams = TraceParams(),
+    params: TraceParams = TraceParams.robust(),
     report: Report,
 ) -> TracedStrands:
     """Strands of the photo, with the colour `foreground` (H, W, 3) linear and `alpha` (H, W) of its matte."""
