@@ -117,6 +117,20 @@ def copied(source: Path, target: Path) -> Path:
     return target
 
 
+def test_a_rerun_leaves_no_picture_of_the_last_run(tress, finished, photo, tmp_path):
+    folder = copied(finished, tmp_path / "out")
+    arguments = ("portrait", photo, "-o", folder, *SMALL, "--formats", "usda")
+    assert tress(*arguments, "--from-stage", "color").code == 0
+    (folder / "textures" / "mine.png").write_bytes(b"kept")
+    first = sorted((folder / "textures").iterdir())
+    other = ("--from-stage", "head", "--max-size", "200")  # another texture
+    assert tress(*arguments, *other).code == 0
+    second = sorted((folder / "textures").iterdir())
+    assert len(first) == len(second) == 2
+    assert first != second and set(first) & set(second) == {folder / "textures" / "mine.png"}
+    assert (folder / "hair.usda").exists() and not (folder / "hair.usdc").exists()
+
+
 @pytest.mark.parametrize(
     ("save", "ending"),
     [

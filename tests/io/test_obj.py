@@ -1,5 +1,7 @@
 """OBJ: strands and meshes back to the bit, files of others read as far as they hold either, damaged ones refused."""
 
+from time import process_time
+
 import numpy as np
 import pytest
 from documents import meshes, strands
@@ -7,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tress.base.errors import FormatError
+from tress.io import obj_lines
 from tress.io.formats.obj import decode_obj, encode_obj
 from tress.model.evaluate import Scene
 from tress.model.mesh import Mesh
@@ -92,6 +95,53 @@ def test_noise_does_no_harm(noise):
         decode_obj(noise)
     except FormatError as error:
         assert "\n" not in str(error)
+
+
+PIECES = ["v 1 2 3", "v 1 2 3 0.1 0.2 0.3", "v -1e-3 .5 +2", "v 1 2", "v 1 2 x", "v 1 2 3 4", "v  1\t2  3 ", "v1 2 3"]
+PIECES += [
+    "l 1 2",
+    "l 2 1 3",
+    "l 1 -1",
+    "l 1/1 2/2",
+    "l 0 1",
+    "l",
+    "l 1 9",
+    "",
+    " v 1 2 3",
+    "o a",
+    "vt 0 1",
+    "v 1 2 3-4",
+]
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.lists(st.tuples(st.sampled_from(PIECES), st.integers(1, 4))), st.sampled_from(["\n", "\r\n", "\r"]))
+def test_runs_are_read_as_line_by_line(pieces, newline):
+    text = newline.join(line for line, count in pieces for _ in range(count)).encode()
+
+    def outcome() -> object:
+        try:
+            return decode_obj(text)
+        except FormatError as error:
+            return str(error)
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(obj_lines.Run, "numbers", lambda run: None)
+        slowly = outcome()
+    assert outcome() == slowly
+
+
+def test_fifty_thousand_strands_are_written_and_read_in_a_few_seconds():
+    count, points = 50_000, 40
+    rows = np.random.default_rng(0).normal(size=(count * points, 3)) * 0.1
+    hair = Strands(points=rows, offsets=np.arange(count + 1) * points, point_attributes={"color": np.abs(rows)})
+    start = process_time()
+    data = encode_obj(Scene(strands={"hair": hair}))
+    written = process_time()
+    found = decode_obj(data)["hair"]
+    assert written - start < 3  # 0.8 s; number by number takes 5 s
+    assert process_time() - written < 9  # 3 s; line by line takes 7 s
+    assert found.points.tobytes() == hair.points.tobytes()
 
 
 def test_a_whole_body_is_read(open_data):

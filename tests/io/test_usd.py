@@ -156,6 +156,22 @@ def test_truncated_files_are_refused(tmp_path, cut, text):
         open_document(path)
 
 
+@pytest.mark.slow
+def test_hundreds_of_damaged_tables_are_refused_or_read(tmp_path):
+    path, random = tmp_path / "hair.usdc", np.random.default_rng(0)
+    save_document(portrait(), path)
+    whole = path.read_bytes()
+    for _ in range(400):
+        data = bytearray(whole)
+        for place in random.integers(0, len(data), random.integers(1, 6)):
+            data[place] ^= 1 << random.integers(0, 8)
+        path.write_bytes(data)
+        try:
+            open_document(path)
+        except FormatError as error:
+            assert "\n" not in str(error)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [

@@ -125,7 +125,7 @@ def portrait(
         seed=seed,
         strands=strands,
         max_size=max_size,
-        formats=tuple(name.strip().lstrip(".") for name in formats.split(",") if name.strip()),
+        formats=tuple(name.strip().lstrip(".").lower() for name in formats.split(",") if name.strip()),
         turntable=turntable,
         settings=tuple(set_ or ()),
         from_stage=from_stage,

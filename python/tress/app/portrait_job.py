@@ -1,5 +1,6 @@
 """One photograph to one folder: the job that the command runs, and that a batch can run many of."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -7,6 +8,7 @@ from typing import Any
 from tress.app.settings import settings, with_settings
 from tress.base.report import Report
 from tress.io.atomic import OutputFolder
+from tress.io.format import Format
 from tress.io.formats.registry import format_of
 from tress.io.photo import Photo, read_photo
 from tress.io.stage_cache import StageCache
@@ -42,7 +44,7 @@ class Delivery:
 
 def run_portrait(options: PortraitOptions, *, report: Report) -> Delivery:
     """Reads the photo, reconstructs, delivers. Raises the errors of all three; then nothing was written."""
-    formats = [format_of(Path(f"hair.{ending}")) for ending in options.formats]
+    formats = {f"hair.{ending}": format_of(Path(f"hair.{ending}")) for ending in options.formats}
     params = _params(options)
     photo = _read(options, report)
     with OutputFolder(options.folder) as output:
@@ -58,7 +60,16 @@ def run_portrait(options: PortraitOptions, *, report: Report) -> Delivery:
         facts = _facts(options, photo, params)
         deliver(reconstruction, output.path, formats=formats, turntable=options.turntable, facts=facts, report=report)
         files = tuple(sorted(file.relative_to(output.path) for file in output.path.rglob("*") if file.is_file()))
+    _remove_stale(options.folder, formats, kept=files)
     return Delivery(options.folder, files)
+
+
+def _remove_stale(folder: Path, formats: Mapping[str, Format], *, kept: tuple[Path, ...]) -> None:
+    """Removes what an earlier run wrote beside these files for them, and nothing else."""
+    for name, form in formats.items():
+        for file in form.companions(folder / name):
+            if file.relative_to(folder) not in kept:
+                file.unlink(missing_ok=True)
 
 
 def _read(options: PortraitOptions, report: Report) -> Photo:

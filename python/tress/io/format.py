@@ -18,6 +18,11 @@ STRANDS, COLOR, ALPHA, RADIUS, HEAD, CAMERA, DOCUMENT = (
 )
 
 
+def no_companions(_path: Path) -> list[Path]:
+    """What most formats have beside their file: nothing."""
+    return []
+
+
 @dataclass(frozen=True)
 class Format:
     """A format: its name, its suffixes with the dot, how it is written, and read where that is possible.
@@ -25,7 +30,8 @@ class Format:
     `keeps` names what comes back exactly when a file is written and read: of `STRANDS` (points and offsets), `COLOR`,
     `ALPHA`, `RADIUS`, `HEAD` (positions and triangles), `CAMERA` and `DOCUMENT` (everything); `nearly` what comes back
     within `tolerance`. `write` raises `OutputError`, and `InputError` where the format cannot hold the document; `read`
-    raises `FormatError`. Writing is deterministic, and the file appears whole or not at all.
+    raises `FormatError`. Writing is deterministic, and the file appears whole or not at all. `companions` finds the
+    files that were written beside a file for it, now or earlier.
     """
 
     name: str
@@ -35,3 +41,4 @@ class Format:
     keeps: frozenset[str] = frozenset()
     nearly: frozenset[str] = frozenset()
     tolerance: float = 0.0
+    companions: Callable[[Path], list[Path]] = no_companions

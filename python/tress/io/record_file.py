@@ -8,7 +8,6 @@ foreign file can do no harm.
 import dataclasses
 import importlib
 import json
-import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from tress.base.errors import FormatError
+from tress.io.archive import DAMAGE, check_size
 
 _TREE = "__tree__"
 _PLAIN = (str, int, float, bool, type(None))
@@ -38,19 +38,11 @@ def save_record(path: Path, record: Any, *, header: Mapping[str, str] | None = N
 def load_record(path: Path) -> tuple[Any, dict[str, str]]:
     """The record in `path` and its header. Raises `FormatError` where the file is not one of `save_record`."""
     try:
+        check_size(path)
         with np.load(path, allow_pickle=False) as archive:
             words = json.loads(str(archive[_TREE]))
             return _value(words["tree"], archive), words["header"]
-    except (
-        OSError,
-        ValueError,
-        KeyError,
-        TypeError,
-        AttributeError,
-        ImportError,
-        EOFError,
-        zipfile.BadZipFile,
-    ) as error:
+    except DAMAGE as error:
         raise FormatError(f"{path} does not hold the result of a stage ({error}); run the stage again.") from error
 
 
@@ -59,7 +51,7 @@ def load_header(path: Path) -> dict[str, str]:
     try:
         with np.load(path, allow_pickle=False) as archive:
             return json.loads(str(archive[_TREE]))["header"]
-    except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
+    except DAMAGE as error:
         raise FormatError(f"{path} does not hold the result of a stage ({error}); run the stage again.") from error
 
 

@@ -6,10 +6,6 @@ Members: `points` (N, 3) float32 metres, `offsets` (S + 1,) int64, `xy_from_poin
 """
 
 import io
-import struct
-import tokenize
-import zipfile
-import zlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from tress.base.errors import FormatError, InputError
+from tress.io.archive import DAMAGE, check_size
 from tress.io.atomic import atomic_path
 from tress.io.file_bytes import read_bytes
 from tress.io.format import CAMERA, STRANDS, Format
@@ -27,24 +24,6 @@ from tress.model.evaluate import evaluate
 from tress.model.strands import Strands
 
 Array = np.ndarray[Any, Any]
-
-# Everything that NumPy and zipfile raise on damaged archives.
-DAMAGE = (
-    ValueError,
-    TypeError,
-    KeyError,
-    AttributeError,
-    EOFError,
-    OSError,
-    OverflowError,
-    MemoryError,
-    RuntimeError,
-    SyntaxError,
-    tokenize.TokenError,
-    struct.error,
-    zlib.error,
-    zipfile.BadZipFile,
-)
 
 
 @dataclass(frozen=True)
@@ -82,7 +61,9 @@ def write_npz(document: Document, path: Path) -> None:
 def read_npz(path: Path) -> Document:
     """A document with the strands (`hair`) and the camera (`photo`) of a reconstruction. Raises `FormatError`."""
     try:
-        with np.load(io.BytesIO(read_bytes(path)), allow_pickle=False) as file:
+        data = io.BytesIO(read_bytes(path))
+        check_size(data)
+        with np.load(data, allow_pickle=False) as file:
             arrays = {name: file[name] for name in ("points", "offsets", "xy_from_points", "height_width")}
         height, width = arrays["height_width"].tolist()
     except DAMAGE as error:

@@ -9,12 +9,13 @@ from pathlib import Path
 
 from tress import __version__
 from tress.base.errors import FormatError, InputError
+from tress.io.apart import read_apart
 from tress.io.format import DOCUMENT, Format
 from tress.io.usd.foreign import foreign_document
 from tress.io.usd.mapping import prim_of, record_of
 from tress.io.usd.prim import Prim
 from tress.io.usd.shown import shown_prims
-from tress.io.usd.stage import SUFFIXES, read_stage, write_stage, written_by_tress
+from tress.io.usd.stage import SUFFIXES, pictures_of, read_stage, write_stage, written_by_tress
 from tress.model.document import Document
 from tress.model.record import Record
 
@@ -40,8 +41,12 @@ def _shown(prim: Prim, record: Record, document: Document) -> Prim:
 def open_document(path: Path) -> Document:
     """The document of a file written by `save_document`, or the NURBS patches of another program's file as strips.
 
-    Raises `FormatError`.
+    Raises `FormatError`, also for files that make OpenUSD crash, take all memory or never end: a process apart reads.
     """
+    return read_apart(path, _document)
+
+
+def _document(path: Path) -> Document:
     if not written_by_tress(path):
         return foreign_document(path)
     prims, data = read_stage(path)
@@ -55,4 +60,4 @@ def open_document(path: Path) -> Document:
         raise FormatError(f"{path} is damaged: {error}") from error
 
 
-FORMAT = Format("usd", SUFFIXES, save_document, open_document, keeps=frozenset({DOCUMENT}))
+FORMAT = Format("usd", SUFFIXES, save_document, open_document, keeps=frozenset({DOCUMENT}), companions=pictures_of)

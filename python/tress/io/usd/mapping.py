@@ -53,3 +53,5 @@ def record_of(prim: Prim) -> Record:
         return kind(**record_fields(prim, kind, nested=record_of))
     except TypeError as error:
         raise FormatError(f"Prim {prim.name!r} does not hold all fields of a {name}.") from error
+    except (ValueError, AttributeError) as error:  # NumPy's, of arrays with another shape than that of the record
+        raise FormatError(f"Prim {prim.name!r} does not hold the arrays of a {name}.") from error

@@ -69,6 +69,11 @@ def read_stage(path: Path) -> tuple[list[Prim], dict[str, Any]]:
         raise FormatError(f"{path} is damaged.") from error
 
 
+def pictures_of(path: Path) -> list[Path]:
+    """The pictures that were written beside a file for it, those of its earlier versions too."""
+    return sorted((path.parent / TEXTURES).glob(f"{_escaped(path.name)}.{'[0-9a-f]' * 16}.png"))
+
+
 @dataclass(frozen=True)
 class ForeignPrim:
     """A prim of another program's file; `world_from_prim` (4, 4) leads to metres, Y up."""
@@ -169,7 +174,7 @@ class _Pictures:
 
     def remove_others(self) -> None:
         """Removes pictures of earlier versions of the file."""
-        for file in self._folder.glob(f"{_escaped(self._file)}.{'[0-9a-f]' * 16}.png"):
+        for file in pictures_of(self._folder.parent / self._file):
             if file.name not in self._encoded:
                 file.unlink(missing_ok=True)
 
@@ -282,7 +287,7 @@ def _plain_value(kind: Sdf.ValueTypeName, value: Any, folder: Path) -> Any:
         return None
     if kind.isArray and value is not None:
         return tuple(value) if isinstance(value, Vt.TokenArray | Vt.StringArray) else np.array(value)
-    return value
+    return np.array(value) if type(value).__module__.startswith("pxr.") else value
 
 
 def _read_picture(folder: Path, name: str) -> Picture:

@@ -5,7 +5,7 @@ import json
 import math
 import platform
 import resource
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, Final
@@ -50,15 +50,15 @@ def deliver(
     reconstruction: Reconstruction,
     folder: Path,
     *,
-    formats: Sequence[Format],
+    formats: Mapping[str, Format],
     turntable: bool,
     facts: Mapping[str, Any],
     report: Report,
 ) -> None:
     """Writes every file of a reconstruction into `folder`, which exists. Raises `OSError` and `OutputError`.
 
-    `formats` says which files the hair is written to, `turntable` whether the film is made, `facts` what the report
-    says besides times and figures.
+    `formats` says which files the hair is written to, by their names, `turntable` whether the film is made, `facts`
+    what the report says besides times and figures.
     """
     with report.stage("stages"):
         deliver_stages(reconstruction, folder)
@@ -88,10 +88,10 @@ def _deliver_stage(reconstruction: Reconstruction, cache: StageCache, number: in
     write_picture(stage.picture(work), cache.path(number, name).with_suffix(".png"))
 
 
-def deliver_formats(reconstruction: Reconstruction, folder: Path, *, formats: Sequence[Format]) -> None:
-    """The document as `hair` in each format."""
-    for form in formats:
-        form.write(reconstruction.document, folder / f"hair{form.suffixes[0]}")
+def deliver_formats(reconstruction: Reconstruction, folder: Path, *, formats: Mapping[str, Format]) -> None:
+    """The document in each format, under the given file names."""
+    for name, form in formats.items():
+        form.write(reconstruction.document, folder / name)
 
 
 def deliver_arrays(reconstruction: Reconstruction, folder: Path) -> None:
