@@ -63,7 +63,9 @@ def test_rotations_keep_lengths():
     matrix[:3, :3] = np.linalg.qr(RNG.normal(size=(3, 3)))[0]
     matrix[:3, 3] = [1, 2, 3]
     moved = strands.transformed(POINTS, transform=matrix)
-    assert np.allclose(strands.lengths(moved, offsets=OFFSETS), strands.lengths(POINTS, offsets=OFFSETS))
+    lengths = strands.lengths(POINTS, offsets=OFFSETS)
+    assert np.allclose(strands.lengths(moved, offsets=OFFSETS), lengths, atol=1e-5)  # points are single precision
+    assert np.allclose(moved, POINTS @ matrix[:3, :3].T + matrix[:3, 3], atol=1e-6)
     assert np.allclose(strands.transformed([[0, 0, 0]], transform=matrix), [[1, 2, 3]])
 
 

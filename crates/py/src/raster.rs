@@ -16,6 +16,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(raster_project, module)?)?;
     module.add_function(wrap_pyfunction!(raster_gbuffer, module)?)?;
     module.add_function(wrap_pyfunction!(raster_composite, module)?)?;
+    module.add_function(wrap_pyfunction!(raster_strand_picture, module)?)?;
     module.add_function(wrap_pyfunction!(raster_visible_weight, module)?)?;
     module.add_function(wrap_pyfunction!(raster_fit_colors, module)?)?;
     module.add_function(wrap_pyfunction!(raster_splat_residual, module)?)
@@ -76,6 +77,22 @@ fn raster_composite<'py>(
     let (offsets, weight, rgba) = (pixel_offsets.as_slice()?, weight.as_slice()?, rgba.as_slice()?.as_chunks().0);
     let picture = py.detach(|| tress_raster::composite(offsets, weight, rgba));
     Ok(Array2::from(picture).into_pyarray(py))
+}
+
+/// Premultiplied RGBA (pixels, 4) of the strands alone, in the colours (N, 3) of their points.
+#[pyfunction]
+fn raster_strand_picture<'py>(
+    py: Python<'py>,
+    pixel_offsets: PyReadonlyArray1<'py, i64>,
+    kind: PyReadonlyArray1<'py, u8>,
+    primitive: PyReadonlyArray1<'py, i32>,
+    parameter: Rows<'py>,
+    weight: Floats<'py>,
+    colors: Rows<'py>,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let fragments = segment_fragments(&pixel_offsets, &kind, &primitive, &parameter, &weight)?;
+    let colors = colors.as_slice()?.as_chunks().0;
+    Ok(Array2::from(py.detach(|| tress_raster::strand_picture(&fragments, colors))).into_pyarray(py))
 }
 
 /// How much every point shows, in pixels.
@@ -156,14 +173,13 @@ fn vertices(array: &Rows<'_>) -> PyResult<Vec<ProjectedVertex>> {
 }
 
 fn as_dict(py: Python<'_>, buffer: GBuffer) -> PyResult<Bound<'_, PyDict>> {
-    let of = &buffer.fragments;
     let dict = PyDict::new(py);
     dict.set_item("pixel_offsets", buffer.pixel_offsets.into_pyarray(py))?;
-    dict.set_item("kind", of.iter().map(|f| f.kind as u8).collect::<Vec<_>>().into_pyarray(py))?;
-    dict.set_item("primitive", of.iter().map(|f| f.primitive as i32).collect::<Vec<_>>().into_pyarray(py))?;
-    dict.set_item("parameter", Array2::from(of.iter().map(|f| f.parameter).collect::<Vec<_>>()).into_pyarray(py))?;
-    dict.set_item("weight", of.iter().map(|f| f.weight).collect::<Vec<_>>().into_pyarray(py))?;
-    dict.set_item("depth", of.iter().map(|f| f.depth).collect::<Vec<_>>().into_pyarray(py))?;
+    dict.set_item("kind", buffer.kind.into_pyarray(py))?;
+    dict.set_item("primitive", buffer.primitive.into_pyarray(py))?;
+    dict.set_item("parameter", Array2::from(buffer.parameter).into_pyarray(py))?;
+    dict.set_item("weight", buffer.weight.into_pyarray(py))?;
+    dict.set_item("depth", buffer.depth.into_pyarray(py))?;
     Ok(dict)
 }
 

@@ -17,7 +17,8 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(strands_lengths, module)?)?;
     module.add_function(wrap_pyfunction!(strands_resample_by_count, module)?)?;
     module.add_function(wrap_pyfunction!(strands_resample_by_spacing, module)?)?;
-    module.add_function(wrap_pyfunction!(strands_smooth, module)?)
+    module.add_function(wrap_pyfunction!(strands_smooth, module)?)?;
+    module.add_function(wrap_pyfunction!(strands_transformed, module)?)
 }
 
 /// Length of every strand.
@@ -82,6 +83,18 @@ fn strands_smooth<'py>(
     let strands = Strands::new(&points, offsets).map_err(refused)?;
     let found = py.detach(|| tress_strands::smooth(&strands, amount));
     Ok(Array2::from(found.iter().map(DVec3::to_array).collect::<Vec<_>>()).into_pyarray(py))
+}
+
+/// Points (N, 3) under the upper three rows of a matrix (4, 4).
+#[pyfunction]
+fn strands_transformed<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f32>,
+    transform: Points<'py>,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let (points, numbers) = (points.as_slice()?.as_chunks().0, transform.as_slice()?);
+    let matrix = std::array::from_fn(|row| std::array::from_fn(|column| numbers[row * 4 + column]));
+    Ok(Array2::from(py.detach(|| tress_strands::transformed(points, &matrix))).into_pyarray(py))
 }
 
 fn sampling(py: Python<'_>, found: Sampling) -> SamplingArrays<'_> {

@@ -1,6 +1,8 @@
-//! From shaded fragments to a picture.
+//! From fragments to a picture.
 
 use rayon::prelude::*;
+
+use crate::splat::SegmentFragments;
 
 /// Sums of weight times colour over the fragments of every pixel: premultiplied RGBA, `pixels` x 4.
 ///
@@ -19,6 +21,23 @@ pub fn composite(pixel_offsets: &[i64], weight: &[f32], rgba: &[[f32; 4]]) -> Ve
                 }
                 sum[3] += share;
             }
+            sum
+        })
+        .collect()
+}
+
+/// The strands alone in the colours of their points, before nothing: premultiplied RGBA, `pixels` x 4.
+pub fn strand_picture(fragments: &SegmentFragments, colors: &[[f32; 3]]) -> Vec<[f32; 4]> {
+    (0..fragments.pixel_offsets.len().saturating_sub(1))
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(|pixel| {
+            let mut sum = [0.0f32; 4];
+            fragments.for_each_share_of(pixel, |point, share| {
+                let color = &colors[point];
+                (0..3).for_each(|channel| sum[channel] += share * color[channel]);
+                sum[3] += share;
+            });
             sum
         })
         .collect()

@@ -20,10 +20,10 @@ mod strand_points;
 mod tile;
 mod triangle;
 
-pub use composite::composite;
+pub use composite::{composite, strand_picture};
 pub use error::RasterError;
 pub use fit::fit_colors;
-pub use gbuffer::{Fragment, GBuffer, Kind};
+pub use gbuffer::{GBuffer, Kind};
 pub use project::{ProjectedVertex, project};
 pub use rasterise::rasterise;
 pub use samples::SAMPLES;

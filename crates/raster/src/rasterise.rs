@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::bins::{Bins, TileGrid};
-use crate::gbuffer::{Fragment, GBuffer};
+use crate::gbuffer::{GBuffer, TileFragments};
 use crate::resolve::Resolver;
 use crate::samples::{OpacityOrders, Pattern};
 use crate::segment::{self, Segment};
@@ -12,8 +12,10 @@ use crate::tile::Tile;
 use crate::triangle::Triangle;
 use crate::{ProjectedScene, RasterError};
 
-/// Segments between two looks at whether the tile is closed.
+/// Segments between two looks at how far one can see in the tile.
 const STRIDE: usize = 64;
+/// Segments that are ordered at once, at the least; those behind wait, since most of them may be hidden.
+const LEAST_ORDERED: usize = 512;
 
 /// What every pixel of the picture sees of the scene.
 ///
@@ -34,15 +36,25 @@ pub fn rasterise(scene: &ProjectedScene) -> Result<GBuffer, RasterError> {
         triangles: triangle_bins(scene, grid),
         pattern: Pattern::new(),
         orders: OpacityOrders::new(),
+        processor: pulp::Arch::new(),
     };
-    let rows: Vec<TileRow> = (0..grid.count())
+    let tiles: Vec<TileFragments> = (0..grid.count())
         .into_par_iter()
-        .map_init(Tile::new, |tile, index| work.tile_fragments(index, tile))
-        .collect::<Vec<_>>()
-        .chunks(grid.columns)
-        .map(|tiles| TileRow::joined(tiles, scene.width))
+        .map_init(Scratch::new, |scratch, i| work.tile_fragments(i, scratch))
         .collect();
-    Ok(assembled(rows))
+    Ok(GBuffer::assembled(&tiles, grid))
+}
+
+/// What one core works with.
+struct Scratch {
+    tile: Tile,
+    keys: Vec<u64>,
+}
+
+impl Scratch {
+    fn new() -> Self {
+        Self { tile: Tile::new(), keys: Vec::new() }
+    }
 }
 
 struct Work<'a> {
@@ -53,132 +65,104 @@ struct Work<'a> {
     triangles: Bins,
     pattern: Pattern,
     orders: OpacityOrders,
-}
-
-struct TileFragments {
-    fragments: Vec<Fragment>,
-    counts: Vec<u32>,
-    width: usize,
+    processor: pulp::Arch,
 }
 
 impl Work<'_> {
-    fn tile_fragments(&self, index: usize, tile: &mut Tile) -> TileFragments {
+    fn tile_fragments(&self, index: usize, Scratch { tile, keys }: &mut Scratch) -> TileFragments {
         let (column, row) = (index % self.grid.columns, index / self.grid.columns);
-        tile.begin(column, row, self.scene.width, self.scene.height);
-        for triangle in self.triangles.of_tile(index) {
+        let size = tile.place(column, row, self.scene.width, self.scene.height);
+        let mut found = TileFragments { fragments: Vec::new(), counts: vec![0; size[0] * size[1]], width: size[0] };
+        keys.clear();
+        keys.extend(self.segments.of_tile(index));
+        if keys.is_empty() && self.triangles.of_tile(index).next().is_none() {
+            return found;
+        }
+        tile.clear();
+        for entry in self.triangles.of_tile(index) {
+            let triangle = entry as u32;
             if let Some(drawn) = triangle_of(self.scene, triangle as usize) {
                 drawn.draw(triangle, tile, &self.pattern);
             }
         }
-        self.draw_segments(index, tile);
-        let (mut fragments, mut counts) = (Vec::new(), Vec::new());
-        Resolver { scene: self.scene, points: self.points, pattern: &self.pattern }.resolve(
-            tile,
-            &mut fragments,
-            &mut counts,
-        );
-        TileFragments { fragments, counts, width: tile.size[0] as usize }
+        self.draw_segments(keys, tile);
+        Resolver { scene: self.scene, points: self.points, pattern: &self.pattern }.resolve(tile, &mut found);
+        found
     }
 
-    fn draw_segments(&self, index: usize, tile: &mut Tile) {
-        let nearest = |i: u32| self.points[i as usize].depth.min(self.points[i as usize + 1].depth);
-        let mut order: Vec<u64> =
-            self.segments.of_tile(index).map(|i| u64::from(sortable(nearest(i))) << 32 | u64::from(i)).collect();
-        order.sort_unstable();
-        for keys in order.chunks(STRIDE) {
-            if nearest(keys[0] as u32) >= tile.farthest_of_all() {
+    /// Draws from front to back until everything that is left is hidden.
+    fn draw_segments(&self, keys: &mut [u64], tile: &mut Tile) {
+        let at_once = LEAST_ORDERED.max(keys.len() / 4);
+        let mut rest = keys;
+        while !rest.is_empty() {
+            if at_once < rest.len() {
+                rest.select_nth_unstable(at_once);
+            }
+            let (front, behind) = rest.split_at_mut(at_once.min(rest.len()));
+            front.sort_unstable();
+            if !self.processor.dispatch(Drawing { work: self, keys: front, tile }) {
                 return;
             }
-            for &key in keys {
-                let i = key as u32;
-                let (a, b) = (&self.points[i as usize], &self.points[i as usize + 1]);
-                if let Some(segment) = Segment::new(a, b) {
-                    segment.draw(i, tile, &self.pattern, &self.orders);
-                }
-            }
+            rest = behind;
         }
     }
 }
 
+/// Segments that come ordered from front to back, and the tile to draw them into.
+struct Drawing<'a> {
+    work: &'a Work<'a>,
+    keys: &'a [u64],
+    tile: &'a mut Tile,
+}
+
+/// A type, not a closure, since closures are not inlined and then have the vectors of the oldest processor.
+impl pulp::NullaryFnOnce for Drawing<'_> {
+    type Output = bool;
+
+    /// Draws; returns whether anything can be seen behind.
+    #[inline(always)]
+    fn call(self) -> bool {
+        let Self { work, keys, tile } = self;
+        for keys in keys.chunks(STRIDE) {
+            if sortable(tile.look()) <= (keys[0] >> 32) as u32 {
+                return false;
+            }
+            // All ends at once: they lie far apart in memory, and waiting for each in turn would take longer.
+            let mut ends = [[StrandPoint::NOWHERE; 2]; STRIDE];
+            for (ends, key) in ends.iter_mut().zip(keys) {
+                let i = *key as u32 as usize;
+                *ends = [work.points[i], work.points[i + 1]];
+            }
+            for (key, [a, b]) in keys.iter().zip(&ends) {
+                let Some(pixels) = tile.open_pixels(segment::bounds(a, b), segment::nearest(a, b)) else { continue };
+                if let Some(segment) = Segment::new(a, b) {
+                    segment.draw(*key as u32 as usize, work.points, pixels, tile, &work.pattern, &work.orders);
+                }
+            }
+        }
+        true
+    }
+}
+
 /// A number that orders as the depth does.
+#[inline(always)]
 fn sortable(depth: f32) -> u32 {
     let bits = depth.to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }
 
 fn segment_bins(points: &[StrandPoint], grid: TileGrid) -> Bins {
-    Bins::new(grid, points.len().saturating_sub(1), |i, touch| {
+    Bins::new(grid, points.len().saturating_sub(1), |i| {
         let (a, b) = (&points[i], &points[i + 1]);
-        if a.begins_segment() && a.opacity.max(b.opacity) > 0.0 {
-            let (min, max) = segment::bounds(a, b);
-            touch_all(grid, min, max, touch);
-        }
+        let drawn = a.begins_segment() && a.opacity.max(b.opacity) > 0.0;
+        drawn.then(|| (segment::bounds(a, b), sortable(segment::nearest(a, b))))
     })
 }
 
 fn triangle_bins(scene: &ProjectedScene, grid: TileGrid) -> Bins {
-    Bins::new(grid, scene.triangles.len(), |i, touch| {
-        if let Some(triangle) = triangle_of(scene, i) {
-            let (min, max) = triangle.bounds();
-            touch_all(grid, min, max, touch);
-        }
-    })
-}
-
-fn touch_all(grid: TileGrid, min: [f32; 2], max: [f32; 2], touch: &mut dyn FnMut(usize)) {
-    let [columns, rows] = grid.overlapping(min, max);
-    for row in rows {
-        for column in columns.clone() {
-            touch(row * grid.columns + column);
-        }
-    }
+    Bins::new(grid, scene.triangles.len(), |i| triangle_of(scene, i).map(|triangle| (triangle.bounds(), 0)))
 }
 
 fn triangle_of(scene: &ProjectedScene, index: usize) -> Option<Triangle> {
     Triangle::new(scene.triangles[index].map(|v| &scene.mesh_vertices[v as usize]))
-}
-
-/// Fragments of the pixel rows that one row of tiles covers, and the number in every pixel.
-struct TileRow {
-    fragments: Vec<Fragment>,
-    counts: Vec<u32>,
-}
-
-impl TileRow {
-    fn joined(tiles: &[TileFragments], width: usize) -> Self {
-        let height = tiles.first().map_or(0, |tile| tile.counts.len() / tile.width);
-        let mut row = Self {
-            fragments: Vec::with_capacity(tiles.iter().map(|tile| tile.fragments.len()).sum()),
-            counts: Vec::with_capacity(width * height),
-        };
-        let mut read = vec![0usize; tiles.len()];
-        for y in 0..height {
-            for (tile, read) in tiles.iter().zip(&mut read) {
-                let counts = &tile.counts[y * tile.width..(y + 1) * tile.width];
-                let number = counts.iter().sum::<u32>() as usize;
-                row.counts.extend_from_slice(counts);
-                row.fragments.extend_from_slice(&tile.fragments[*read..*read + number]);
-                *read += number;
-            }
-        }
-        row
-    }
-}
-
-fn assembled(rows: Vec<TileRow>) -> GBuffer {
-    let pixels = rows.iter().map(|row| row.counts.len()).sum::<usize>();
-    let mut buffer = GBuffer {
-        pixel_offsets: Vec::with_capacity(pixels + 1),
-        fragments: Vec::with_capacity(rows.iter().map(|row| row.fragments.len()).sum()),
-    };
-    let mut end = 0;
-    buffer.pixel_offsets.push(end);
-    for row in rows {
-        for count in row.counts {
-            end += i64::from(count);
-            buffer.pixel_offsets.push(end);
-        }
-        buffer.fragments.extend(row.fragments);
-    }
-    buffer
 }

@@ -1,7 +1,7 @@
 //! From the samples of a pixel to its fragments.
 
 use crate::bins::TILE;
-use crate::gbuffer::{Fragment, Kind};
+use crate::gbuffer::{Fragment, Kind, TileFragments};
 use crate::samples::{Pattern, SAMPLES};
 use crate::segment::Segment;
 use crate::strand_points::StrandPoint;
@@ -26,18 +26,22 @@ struct Group {
 }
 
 impl Resolver<'_> {
-    /// Fragments of every pixel of the tile, row by row, and how many each pixel has.
-    pub fn resolve(&self, tile: &Tile, fragments: &mut Vec<Fragment>, counts: &mut Vec<u32>) {
+    /// Adds the fragments of every pixel of the tile, row by row, and how many each pixel has.
+    pub fn resolve(&self, tile: &Tile, found: &mut TileFragments) {
+        let fragments = &mut found.fragments;
         for row in 0..tile.size[1] {
             for column in 0..tile.size[0] {
-                let pixel = row as usize * TILE + column as usize;
+                let primitives = &tile.primitive[row as usize * TILE + column as usize];
+                if primitives == &[EMPTY; SAMPLES] {
+                    continue;
+                }
                 let corner = [(tile.origin[0] + column) as f32, (tile.origin[1] + row) as f32];
                 let first = fragments.len();
-                self.resolve_pixel(&tile.primitive[pixel], corner, fragments);
+                self.resolve_pixel(primitives, corner, fragments);
                 fragments[first..].sort_unstable_by(|a, b| {
                     a.depth.total_cmp(&b.depth).then((a.kind as u8, a.primitive).cmp(&(b.kind as u8, b.primitive)))
                 });
-                counts.push((fragments.len() - first) as u32);
+                found.counts[row as usize * found.width + column as usize] = (fragments.len() - first) as u32;
             }
         }
     }

@@ -17,25 +17,25 @@ pub type Lane = [f32; SAMPLES];
 const ORDERS: usize = 256;
 
 /// The larger of two numbers that are not NaN: one instruction, which `f32::max` is not.
-#[inline]
+#[inline(always)]
 pub(crate) fn larger(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
 /// The smaller of two numbers that are not NaN.
-#[inline]
+#[inline(always)]
 pub(crate) fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
 /// All bits set, or none.
-#[inline]
+#[inline(always)]
 pub(crate) fn word(condition: bool) -> u32 {
     u32::from(condition).wrapping_neg()
 }
 
 /// Puts depth and primitive into the samples that are hit, where the word is all ones.
-#[inline]
+#[inline(always)]
 pub(crate) fn take(hits: &[u32; SAMPLES], nearer: &Lane, index: u32, depth: &mut Lane, primitive: &mut [u32; SAMPLES]) {
     for i in 0..SAMPLES {
         depth[i] = f32::from_bits((nearer[i].to_bits() & hits[i]) | (depth[i].to_bits() & !hits[i]));
@@ -44,13 +44,15 @@ pub(crate) fn take(hits: &[u32; SAMPLES], nearer: &Lane, index: u32, depth: &mut
 }
 
 /// The largest value of the samples.
-#[inline]
+#[inline(always)]
 pub(crate) fn largest(lane: &Lane) -> f32 {
-    let mut most: [f32; 4] = std::array::from_fn(|i| larger(lane[i], lane[i + 4]));
-    for i in 0..4 {
-        most[i] = larger(most[i], larger(lane[i + 8], lane[i + 12]));
+    let mut most = *lane;
+    for half in [8, 4, 2, 1] {
+        for i in 0..half {
+            most[i] = larger(most[i], most[i + half]);
+        }
     }
-    larger(larger(most[0], most[1]), larger(most[2], most[3]))
+    most[0]
 }
 
 /// Positions within the pixel, multiples of 1/32: exact in floating point.
@@ -73,6 +75,7 @@ impl Pattern {
     }
 
     /// Value of the linear form `gx x + gy y` at every sample.
+    #[inline(always)]
     pub fn linear(&self, gx: f32, gy: f32) -> Lane {
         std::array::from_fn(|i| gx * self.x[i] + gy * self.y[i])
     }
@@ -100,6 +103,7 @@ impl OpacityOrders {
     }
 
     /// Thresholds of one strand.
+    #[inline(always)]
     pub fn of(&self, row: u32) -> &Lane {
         &self.thresholds[row as usize % ORDERS]
     }

@@ -4,10 +4,10 @@
 //! point that halves the angle between them: together they cover every sample of the strand once, so that opacity is not
 //! counted twice where segments meet. At turns of more than a right angle the band ends bluntly.
 
-use crate::bins::TILE;
+use crate::bins::{Rectangle, TILE};
 use crate::samples::{Lane, OpacityOrders, Pattern, SAMPLES, larger, largest, smaller, take, word};
 use crate::strand_points::StrandPoint;
-use crate::tile::Tile;
+use crate::tile::{Pixels, Tile};
 
 /// How far the corners of a band may lie from its points, in half widths: a right-angled mitre reaches sqrt 2.
 const REACH: f32 = 1.5;
@@ -15,9 +15,19 @@ const REACH: f32 = 1.5;
 const MARGIN: f32 = 1.0 / 64.0;
 
 /// Rectangle around a segment, in pixels.
-pub(crate) fn bounds(a: &StrandPoint, b: &StrandPoint) -> ([f32; 2], [f32; 2]) {
-    let pad = REACH * a.half_width.max(b.half_width) + MARGIN;
-    ([a.x.min(b.x) - pad, a.y.min(b.y) - pad], [a.x.max(b.x) + pad, a.y.max(b.y) + pad])
+#[inline(always)]
+pub(crate) fn bounds(a: &StrandPoint, b: &StrandPoint) -> Rectangle {
+    let pad = REACH * larger(a.half_width, b.half_width) + MARGIN;
+    Rectangle {
+        min: [smaller(a.x, b.x) - pad, smaller(a.y, b.y) - pad],
+        max: [larger(a.x, b.x) + pad, larger(a.y, b.y) + pad],
+    }
+}
+
+/// The depth of the nearer end.
+#[inline(always)]
+pub(crate) fn nearest(a: &StrandPoint, b: &StrandPoint) -> f32 {
+    smaller(a.depth, b.depth)
 }
 
 /// A segment with its linear forms: across and along from the first point, and the clips at both ends.
@@ -26,23 +36,15 @@ pub(crate) struct Segment<'a> {
     b: &'a StrandPoint,
     along: [f32; 2],
     length: f32,
-    half_width: f32,
-    nearest: f32,
 }
 
 impl<'a> Segment<'a> {
     /// None where the segment has no length on the screen.
+    #[inline(always)]
     pub fn new(a: &'a StrandPoint, b: &'a StrandPoint) -> Option<Self> {
         let (dx, dy) = (b.x - a.x, b.y - a.y);
         let length = (dx * dx + dy * dy).sqrt();
-        (length > 0.0).then(|| Self {
-            a,
-            b,
-            along: [dx / length, dy / length],
-            length,
-            half_width: a.half_width.max(b.half_width),
-            nearest: a.depth.min(b.depth),
-        })
+        (length > 0.0).then(|| Self { a, b, along: [dx / length, dy / length], length })
     }
 
     /// Position along the segment, 0 to 1, and across, -1 to 1, of a point in pixels.
@@ -54,13 +56,21 @@ impl<'a> Segment<'a> {
         [t, across.clamp(-1.0, 1.0)]
     }
 
-    /// Draws into a tile.
-    pub fn draw(&self, index: u32, tile: &mut Tile, pattern: &Pattern, orders: &OpacityOrders) {
-        let (min, max) = bounds(self.a, self.b);
-        let (columns, rows) = (tile.clip(0, min[0], max[0]), tile.clip(1, min[1], max[1]));
+    /// Draws the segment that begins at point `index` of `points` into the `pixels` of a tile.
+    #[inline(always)]
+    pub fn draw(
+        &self,
+        index: usize,
+        points: &[StrandPoint],
+        [columns, rows]: Pixels,
+        tile: &mut Tile,
+        pattern: &Pattern,
+        orders: &OpacityOrders,
+    ) {
         let [dx, dy] = self.along;
-        let reach = self.half_width + 0.5 * (dx.abs() + dy.abs()) + MARGIN;
-        let mut lanes: Option<SampleForms> = None;
+        let nearest = nearest(self.a, self.b);
+        let reach = larger(self.a.half_width, self.b.half_width) + 0.5 * (dx.abs() + dy.abs()) + MARGIN;
+        let mut forms: Option<SampleForms> = None;
         for row in rows {
             let ry = (tile.origin[1] + row) as f32 + 0.5 - self.a.y;
             // Across is dx ry - dy rx: the columns where it stays within reach.
@@ -73,17 +83,41 @@ impl<'a> Segment<'a> {
             };
             for column in columns {
                 let pixel = row as usize * TILE + column as usize;
-                if self.nearest >= tile.farthest[pixel] {
+                if nearest >= tile.farthest[pixel] {
                     continue;
                 }
-                let lanes = lanes.get_or_insert_with(|| SampleForms::new(self, pattern));
+                let forms = forms.get_or_insert_with(|| SampleForms::new(self, mitres(points, index), pattern));
                 let corner = [(tile.origin[0] + column) as f32 - self.a.x, (tile.origin[1] + row) as f32 - self.a.y];
                 let thresholds = orders.of(self.a.row);
-                lanes.cover(self, corner, thresholds, index, &mut tile.depth[pixel], &mut tile.primitive[pixel]);
+                let (depth, primitive) = (&mut tile.depth[pixel], &mut tile.primitive[pixel]);
+                forms.cover(self, corner, thresholds, index as u32, depth, primitive);
                 tile.farthest[pixel] = largest(&tile.depth[pixel]);
             }
         }
     }
+}
+
+/// Unit directions at right angles to the lines on which the segment that begins at point `index` meets the segments
+/// before and after it; its own direction where there is none, and at turns of more than a right angle.
+#[inline(always)]
+fn mitres(points: &[StrandPoint], index: usize) -> [[f32; 2]; 2] {
+    let (a, b) = (&points[index], &points[index + 1]);
+    let Some(along) = a.direction_to(b) else { return [[0.0; 2]; 2] };
+    let before = index.checked_sub(1).map(|i| &points[i]).filter(|p| p.begins_segment());
+    let after = points.get(index + 2).filter(|_| b.begins_segment());
+    let half_way = |other: Option<[f32; 2]>| other.and_then(|other| mean_direction(along, other)).unwrap_or(along);
+    [half_way(before.and_then(|p| p.direction_to(a))), half_way(after.and_then(|p| b.direction_to(p)))]
+}
+
+/// Unit vector half-way between two; None where they are more than a right angle apart.
+#[inline(always)]
+fn mean_direction(a: [f32; 2], b: [f32; 2]) -> Option<[f32; 2]> {
+    if a[0] * b[0] + a[1] * b[1] < 0.0 {
+        return None;
+    }
+    let sum = [a[0] + b[0], a[1] + b[1]];
+    let length = (sum[0] * sum[0] + sum[1] * sum[1]).sqrt();
+    Some([sum[0] / length, sum[1] / length])
 }
 
 /// Values of the linear forms at the samples, relative to the pixel's corner.
@@ -97,10 +131,9 @@ struct SampleForms {
 }
 
 impl SampleForms {
-    fn new(segment: &Segment, pattern: &Pattern) -> Self {
+    #[inline(always)]
+    fn new(segment: &Segment, [start, end]: [[f32; 2]; 2], pattern: &Pattern) -> Self {
         let [dx, dy] = segment.along;
-        let mitre = |m: [f32; 2]| if m == [0.0; 2] { segment.along } else { m };
-        let (start, end) = (mitre(segment.a.mitre), mitre(segment.b.mitre));
         Self {
             across: pattern.linear(-dy, dx),
             along: pattern.linear(dx, dy),
@@ -112,7 +145,7 @@ impl SampleForms {
     }
 
     /// Depth test and coverage of the samples of a pixel whose corner lies at `corner` from the segment's first point.
-    #[inline]
+    #[inline(always)]
     fn cover(
         &self,
         segment: &Segment,

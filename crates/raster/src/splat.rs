@@ -30,13 +30,19 @@ pub struct SegmentFragments<'a> {
 impl SegmentFragments<'_> {
     /// Calls `visit(pixel, point, share)` for both points of every fragment of a segment.
     pub(crate) fn for_each_share(&self, mut visit: impl FnMut(usize, usize, f64)) {
-        for (pixel, range) in self.pixel_offsets.windows(2).enumerate() {
-            for i in range[0] as usize..range[1] as usize {
-                if self.kind[i] == 0 {
-                    let (first, t) = (self.primitive[i] as usize, f64::from(self.parameter[i][0]));
-                    visit(pixel, first, f64::from(self.weight[i]) * (1.0 - t));
-                    visit(pixel, first + 1, f64::from(self.weight[i]) * t);
-                }
+        for pixel in 0..self.pixel_offsets.len().saturating_sub(1) {
+            self.for_each_share_of(pixel, |point, share| visit(pixel, point, share.into()));
+        }
+    }
+
+    /// Calls `visit(point, share)` for both points of every fragment of a segment in one pixel.
+    #[inline]
+    pub(crate) fn for_each_share_of(&self, pixel: usize, mut visit: impl FnMut(usize, f32)) {
+        for i in self.pixel_offsets[pixel] as usize..self.pixel_offsets[pixel + 1] as usize {
+            if self.kind[i] == 0 {
+                let (first, t) = (self.primitive[i] as usize, self.parameter[i][0]);
+                visit(first, self.weight[i] * (1.0 - t));
+                visit(first + 1, self.weight[i] * t);
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Points of strands made ready for the tiles: on a grid, with mitres, width and opacity.
+//! Points of strands made ready for the tiles: on a grid, with width and opacity.
 
 use rayon::prelude::*;
 
@@ -12,6 +12,9 @@ const GRID: f32 = 1024.0;
 /// Row of a point at which no segment begins: the last point of a strand, or a segment that is not drawn.
 const NONE: u32 = u32::MAX;
 
+/// Strands that one core takes at a time.
+const GROUP: usize = 256;
+
 /// A point of a strand; the segment that begins here has the index of the point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StrandPoint {
@@ -21,14 +24,23 @@ pub(crate) struct StrandPoint {
     pub half_width: f32,
     /// Opacity in samples: 16 alpha.
     pub opacity: f32,
-    /// Unit direction of the line on which two segments meet is at right angles to this; 0 where segments end bluntly.
-    pub mitre: [f32; 2],
     pub row: u32,
 }
 
 impl StrandPoint {
+    /// A place holder.
+    pub const NOWHERE: Self = Self { x: 0.0, y: 0.0, depth: 0.0, half_width: 0.0, opacity: 0.0, row: NONE };
+
     pub fn begins_segment(&self) -> bool {
         self.row != NONE
+    }
+
+    /// Unit direction on the screen to another point; None where both are at one place.
+    #[inline(always)]
+    pub fn direction_to(&self, other: &Self) -> Option<[f32; 2]> {
+        let (dx, dy) = (other.x - self.x, other.y - self.y);
+        let length = (dx * dx + dy * dy).sqrt();
+        (length > 0.0).then(|| [dx / length, dy / length])
     }
 }
 
@@ -37,50 +49,53 @@ pub(crate) fn snapped(value: f32) -> f32 {
     ((value * GRID + 0.5_f32.copysign(value)) as i64) as f32 / GRID
 }
 
-/// All points, in parallel over strands.
+/// All points, in parallel: first what each knows of itself, then what its strand tells it.
 pub(crate) fn strand_points(scene: &ProjectedScene) -> Vec<StrandPoint> {
-    let strands = scene.offsets.len().saturating_sub(1);
-    let of_strand = |strand: usize| {
-        let range = scene.offsets[strand] as usize..scene.offsets[strand + 1] as usize;
-        let row = OpacityOrders::row_of_strand(strand);
-        range.clone().map(move |i| point(scene, i, &range, row))
-    };
-    (0..strands).into_par_iter().with_min_len(256).flat_map_iter(of_strand).collect()
+    let least = 0.5 * scene.min_width_px;
+    let own = (scene.strand_points.par_iter(), scene.half_width_px.par_iter(), scene.alpha.par_iter());
+    let mut points: Vec<StrandPoint> =
+        own.into_par_iter().map(|(vertex, width, alpha)| point(vertex, *width, *alpha, least)).collect();
+    groups(scene.offsets, &mut points).into_par_iter().for_each(|(first_strand, offsets, points)| {
+        for (i, ends) in offsets.windows(2).enumerate() {
+            let range = (ends[0] - offsets[0]) as usize..(ends[1] - offsets[0]) as usize;
+            begin_segments(&scene.strand_points[ends[0] as usize..], &mut points[range], first_strand + i);
+        }
+    });
+    points
 }
 
-fn point(scene: &ProjectedScene, i: usize, range: &std::ops::Range<usize>, row: u32) -> StrandPoint {
-    let vertex = &scene.strand_points[i];
-    let least = 0.5 * scene.min_width_px;
-    let given = scene.half_width_px[i].max(0.0);
+fn point(vertex: &ProjectedVertex, width: f32, alpha: f32, least: f32) -> StrandPoint {
+    let given = width.max(0.0);
     let half_width = given.max(least);
     let share = if half_width > 0.0 { given / half_width } else { 0.0 };
-    let next = (i + 1 < range.end).then(|| &scene.strand_points[i + 1]);
-    let drawn = next.is_some_and(|n| vertex.scale > 0.0 && n.scale > 0.0);
     StrandPoint {
         x: snapped(vertex.x),
         y: snapped(vertex.y),
         depth: vertex.depth,
         half_width,
-        opacity: (scene.alpha[i].clamp(0.0, 1.0) * share) * SAMPLES as f32,
-        mitre: if i == range.start { [0.0; 2] } else { mitre(&scene.strand_points[i - 1], vertex, next) },
-        row: if drawn { row } else { NONE },
+        opacity: (alpha.clamp(0.0, 1.0) * share) * SAMPLES as f32,
+        row: NONE,
     }
 }
 
-/// Unit vector half-way between the two directions; 0 at ends and at turns of more than a right angle.
-fn mitre(previous: &ProjectedVertex, here: &ProjectedVertex, next: Option<&ProjectedVertex>) -> [f32; 2] {
-    let Some(next) = next else { return [0.0; 2] };
-    let (Some(a), Some(b)) = (direction(previous, here), direction(here, next)) else { return [0.0; 2] };
-    if a[0] * b[0] + a[1] * b[1] < 0.0 {
-        return [0.0; 2];
+/// Gives the strand's row to the points at which a segment is drawn: those before the camera, as the next one is.
+fn begin_segments(vertices: &[ProjectedVertex], points: &mut [StrandPoint], strand: usize) {
+    let row = OpacityOrders::row_of_strand(strand);
+    for (pair, point) in vertices.windows(2).zip(points.split_last_mut().map_or(&mut [][..], |(_, before)| before)) {
+        point.row = if pair[0].scale > 0.0 && pair[1].scale > 0.0 { row } else { NONE };
     }
-    let sum = [a[0] + b[0], a[1] + b[1]];
-    let length = (sum[0] * sum[0] + sum[1] * sum[1]).sqrt();
-    [sum[0] / length, sum[1] / length]
 }
 
-fn direction(from: &ProjectedVertex, to: &ProjectedVertex) -> Option<[f32; 2]> {
-    let (dx, dy) = (snapped(to.x) - snapped(from.x), snapped(to.y) - snapped(from.y));
-    let length = (dx * dx + dy * dy).sqrt();
-    (length > 0.0).then(|| [dx / length, dy / length])
+/// The points of every `GROUP` strands, with the number of the first of these and their offsets.
+fn groups<'a>(offsets: &'a [i64], points: &'a mut [StrandPoint]) -> Vec<(usize, &'a [i64], &'a mut [StrandPoint])> {
+    let strands = offsets.len().saturating_sub(1);
+    let mut rest = points;
+    let mut found = Vec::with_capacity(strands.div_ceil(GROUP));
+    for first in (0..strands).step_by(GROUP) {
+        let offsets = &offsets[first..=(first + GROUP).min(strands)];
+        let (mine, others) = rest.split_at_mut((offsets[offsets.len() - 1] - offsets[0]) as usize);
+        found.push((first, offsets, mine));
+        rest = others;
+    }
+    found
 }

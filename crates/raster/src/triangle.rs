@@ -4,7 +4,7 @@
 //! one of them takes each sample: no gaps and no doubles, without exact arithmetic.
 
 use crate::ProjectedVertex;
-use crate::bins::TILE;
+use crate::bins::{Rectangle, TILE};
 use crate::samples::{Lane, Pattern, SAMPLES, larger, largest, take, word};
 use crate::strand_points::snapped;
 use crate::tile::{TRIANGLE_BIT, Tile};
@@ -49,11 +49,11 @@ impl Triangle {
     }
 
     /// Rectangle around the triangle, in pixels.
-    pub fn bounds(&self) -> ([f32; 2], [f32; 2]) {
+    pub fn bounds(&self) -> Rectangle {
         let [a, b, c] = self.corners;
         let least = |i: usize| a[i].min(b[i]).min(c[i]);
         let most = |i: usize| a[i].max(b[i]).max(c[i]);
-        ([least(0), least(1)], [most(0), most(1)])
+        Rectangle { min: [least(0), least(1)], max: [most(0), most(1)] }
     }
 
     /// Barycentric coordinates on the screen of a point inside, clamped to the triangle.
@@ -69,7 +69,7 @@ impl Triangle {
 
     /// Draws into a tile.
     pub fn draw(&self, index: u32, tile: &mut Tile, pattern: &Pattern) {
-        let (min, max) = self.bounds();
+        let Rectangle { min, max } = self.bounds();
         let (columns, rows) = (tile.clip(0, min[0], max[0]), tile.clip(1, min[1], max[1]));
         let forms = self.edges.map(|e| pattern.linear(-e.along[1], e.along[0]));
         let depths = pattern.linear(self.gradient[0], self.gradient[1]);

@@ -111,6 +111,14 @@ def composite(fragments: Fragments, *, rgba: Array) -> Array:
     return picture.reshape(fragments.height, fragments.width, 4)
 
 
+def strand_picture(fragments: Fragments, *, colors: Array) -> Array:
+    """Premultiplied RGBA (H, W, 4) float32 of the strands alone, in the `colors` (N, 3) of their points, linear."""
+    values = checked(colors, name="colors", dtype=np.float32, shape=(None, 3))
+    _check_points(fragments, len(values))
+    picture = _core.raster_strand_picture(*_segment_arrays(fragments), values)
+    return picture.reshape(fragments.height, fragments.width, 4)
+
+
 def visible_weight(fragments: Fragments, *, points: int) -> Array:
     """(points,) float32: how many pixels every strand point fills, sharing each fragment as 1 - t and t."""
     _check_points(fragments, points)

@@ -83,13 +83,14 @@ def smooth(points: Array, *, offsets: Array, amount: float) -> Array:
 
 
 def transformed(points: Array, *, transform: Array) -> Array:
-    """(N, 3) float64: points under an affine `transform` (4, 4) with last row 0 0 0 1, which maps columns."""
+    """(N, 3) float32: points under an affine `transform` (4, 4) with last row 0 0 0 1, which maps columns.
+
+    Computed in double precision from single, rounded once.
+    """
     matrix = checked(transform, name="transform", dtype=np.float64, shape=(4, 4))
     if not np.array_equal(matrix[3], (0, 0, 0, 1)):
         raise InputError(f"transform has last row {matrix[3]}; 0 0 0 1 was expected.")
-    given = checked(points, name="points", dtype=np.float64, shape=(None, 3))
-    # Column by column: a product by BLAS is slower for three columns, and its bits depend on the number of threads.
-    return sum((given[:, axis, None] * matrix[:3, axis] for axis in range(3)), start=matrix[:3, 3])
+    return _core.strands_transformed(checked(points, name="points", dtype=np.float32, shape=(None, 3)), matrix)
 
 
 def _answer(function: Any, points: Array, offsets: Array, *rest: Any) -> Any:

@@ -63,7 +63,7 @@ def photo_camera(fitted: FittedHead, *, shape: tuple[int, ...]) -> Camera:
 def head_record(fitted: FittedHead, *, texture: NDArray[np.uint8] | None = None) -> Head:
     """The fitted head in the head frame, with its masks, and its `texture` (S, S, 3) uint8 sRGB if there is one."""
     mesh = Mesh(
-        positions=in_head(fitted.positions_in_view, fitted.view_from_head).astype(np.float32),
+        positions=in_head(fitted.positions_in_view, fitted.view_from_head),
         triangles=fitted.triangles,
         corner_uv=fitted.corner_uv,
         vertex_attributes={name: fitted.masks[name] for name in MASKS if name in fitted.masks},
@@ -81,9 +81,8 @@ def hair_record(
     fitted: FittedHead, *, grown: GrownHair, color: NDArray[np.float32], alpha: NDArray[np.float32]
 ) -> Strands:
     """The grown strands in the head frame, in `color` (N, 3) linear and opacity `alpha` (N,)."""
-    points = in_head(grown.points, fitted.view_from_head).astype(np.float32)
     return Strands(
-        points=points,
+        points=in_head(grown.points, fitted.view_from_head),
         offsets=grown.offsets,
         point_attributes={
             "color": color,
@@ -96,11 +95,11 @@ def hair_record(
 
 def strand_radius_m(grown: GrownHair, *, px_per_metre: float) -> NDArray[np.float32]:
     """Half the width (N,) float32 at every point: what shows is as wide as a pixel, the rest thin."""
-    radius_m = np.where(grown.visible, VISIBLE_RADIUS_PX / px_per_metre, HIDDEN_RADIUS_M)
-    return np.repeat(radius_m, np.diff(grown.offsets)).astype(np.float32)
+    radius_m = np.where(grown.visible, VISIBLE_RADIUS_PX / px_per_metre, HIDDEN_RADIUS_M).astype(np.float32)
+    return np.repeat(radius_m, np.diff(grown.offsets))
 
 
-def in_head(points_in_view: NDArray[np.floating], view_from_head: NDArray[np.float64]) -> NDArray[np.float64]:
+def in_head(points_in_view: NDArray[np.floating], view_from_head: NDArray[np.float64]) -> NDArray[np.float32]:
     """Points (N, 3) of the view frame in the head frame: the inverse of the rigid `view_from_head` (4, 4)."""
     head_from_view = np.eye(4)
     head_from_view[:3, :3] = view_from_head[:3, :3].T
