@@ -250,21 +250,6 @@ def test_visible_weight_is_the_strands_share_of_the_picture():
     assert shown.sum() == pytest.approx(of_strands, rel=1e-5)
 
 
-def test_splat_is_the_transpose_of_shading():
-    strands, vertices, triangles = random_scene(10)
-    found = draw(strands, vertices=vertices, triangles=triangles)
-    rng = np.random.default_rng(1)
-    points = sum(len(strand) for strand in strands)
-    x, y = rng.uniform(0, 1, (points, 3)), rng.uniform(0, 1, (48, 64, 3)).astype(np.float32)
-    hair = found.kind == raster.SEGMENT
-    first, t = found.primitive[hair], found.parameter[hair, :1]
-    rgba = np.zeros((len(found.weight), 4))
-    rgba[hair] = np.c_[x[first] * (1 - t) + x[first + 1] * t, np.ones(hair.sum())]
-    shaded = raster.composite(found, rgba=rgba)[..., :3].astype(float)
-    mean, weight = raster.splat_residual(found, residual=y, pixel_weight=np.ones((48, 64)), points=points)
-    assert (shaded * y).sum() == pytest.approx((x * mean * weight[:, None]).sum(), rel=1e-4)
-
-
 @pytest.mark.parametrize(
     ("change", "message"),
     [

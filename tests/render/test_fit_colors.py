@@ -8,7 +8,7 @@ from render.small_scene import drawn, fringe, wall
 from scipy.ndimage import gaussian_filter
 
 from tress.base.errors import InputError
-from tress.kernel.raster import splat_residual
+from tress.kernel.raster import SEGMENT
 from tress.render.fit_colors import fit_vertex_colors
 from tress.render.gbuffer import hair_coverage
 from tress.render.picture import premultiplied_rgba, straight_rgba
@@ -77,12 +77,25 @@ def test_wrong_shapes_are_refused():
         fit_vertex_colors(gbuffer, colors=gbuffer.scene.color, target_linear=TARGET, weight=np.ones((3, 3)))
 
 
+def handed_back(fragments, *, residual, pixel_weight, points):
+    """Every point's mean (points, 3) of the pixels that it shows in, fragment by fragment."""
+    pixel = np.repeat(np.arange(pixel_weight.size), np.diff(fragments.pixel_offsets))
+    hair = fragments.kind == SEGMENT
+    first, t = fragments.primitive[hair], fragments.parameter[hair, 0]
+    share = (fragments.weight * pixel_weight.ravel()[pixel])[hair]
+    total, shown = np.zeros((points, 3)), np.zeros(points)
+    for point, part in ((first, 1 - t), (first + 1, t)):
+        np.add.at(total, point, (share * part)[:, None] * residual.reshape(-1, 3)[pixel[hair]])
+        np.add.at(shown, point, share * part)
+    return total / np.maximum(shown, 1e-12)[:, None]
+
+
 def test_one_round_hands_back_the_mean_error():
-    """The first round is the transpose of shading: `splat_residual` is the second implementation."""
+    """The first round is the transpose of shading."""
     gbuffer = drawn([fringe(alpha=0.6)])
     start = np.full_like(gbuffer.scene.color, 0.5)
     weight = np.random.default_rng(5).uniform(0.1, 1, (60, 80)).astype(np.float32)
     fitted = fit_vertex_colors(gbuffer, colors=start, target_linear=TARGET, weight=weight, iterations=1, most=10)
     residual = np.where(hair_coverage(gbuffer)[..., None] > 0, TARGET - 0.5, 0)
-    mean, _ = splat_residual(gbuffer.fragments, residual=residual, pixel_weight=weight, points=len(start))
+    mean = handed_back(gbuffer.fragments, residual=residual, pixel_weight=weight, points=len(start))
     np.testing.assert_allclose(fitted, np.clip(start + mean, 0, 10), atol=1e-5)

@@ -15,6 +15,8 @@ use crate::{FieldError, GridShape};
 const NONE: u32 = u32::MAX;
 /// Up to so many cells the iteration starts from zero.
 const COARSEST: usize = 2000;
+/// Fewest cells that are worth a thread of their own: a step over a small picture is over before others could begin.
+const GRAIN: usize = 8192;
 
 /// What to stop at.
 #[derive(Clone, Copy, Debug)]
@@ -203,7 +205,7 @@ impl System {
 
     /// The matrix times `x`; both hold `channels` values a row.
     fn apply(&self, x: &[f64], out: &mut [f64], channels: usize) {
-        out.par_chunks_mut(channels).with_min_len(1024).enumerate().for_each(|(row, out)| {
+        out.par_chunks_mut(channels).with_min_len(GRAIN).enumerate().for_each(|(row, out)| {
             let own = &x[row * channels..(row + 1) * channels];
             for (out, own) in out.iter_mut().zip(own) {
                 *out = self.diagonal[row] * own;
@@ -238,7 +240,7 @@ impl System {
 
     /// `r` over the diagonal.
     fn scale(&self, r: &[f64], z: &mut [f64], channels: usize) {
-        z.par_chunks_mut(channels).zip(r.par_chunks(channels)).with_min_len(1024).enumerate().for_each(
+        z.par_chunks_mut(channels).zip(r.par_chunks(channels)).with_min_len(GRAIN).enumerate().for_each(
             |(row, (z, r))| {
                 let factor = if self.diagonal[row] > 0.0 { 1.0 / self.diagonal[row] } else { 0.0 };
                 for (z, r) in z.iter_mut().zip(r) {
@@ -286,7 +288,7 @@ impl System {
             let next = dots(&r, &z, channels);
             let turn: Vec<f64> = next.iter().zip(&rz).map(ratio).collect();
             rz = next;
-            p.par_chunks_mut(channels).zip(z.par_chunks(channels)).with_min_len(1024).for_each(|(p, z)| {
+            p.par_chunks_mut(channels).zip(z.par_chunks(channels)).with_min_len(GRAIN).for_each(|(p, z)| {
                 for ((p, z), turn) in p.iter_mut().zip(z).zip(&turn) {
                     *p = z + turn * *p;
                 }
@@ -300,7 +302,7 @@ impl System {
 /// `x += sign * step * y`, a step a channel.
 fn add_scaled(x: &mut [f64], y: &[f64], step: &[f64], sign: f64) {
     let channels = step.len();
-    x.par_chunks_mut(channels).zip(y.par_chunks(channels)).with_min_len(1024).for_each(|(x, y)| {
+    x.par_chunks_mut(channels).zip(y.par_chunks(channels)).with_min_len(GRAIN).for_each(|(x, y)| {
         for ((x, y), step) in x.iter_mut().zip(y).zip(step) {
             *x += sign * step * y;
         }

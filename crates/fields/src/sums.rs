@@ -3,6 +3,8 @@
 use rayon::prelude::*;
 
 const CHUNK: usize = 4096;
+/// Fewest chunks that are worth a thread of their own.
+const CHUNKS: usize = 8;
 
 /// Inner product by fixed chunks, added in their order.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -17,6 +19,7 @@ pub(crate) fn dots(a: &[f64], b: &[f64], channels: usize) -> Vec<f64> {
     let parts: Vec<Vec<f64>> = a
         .par_chunks(size)
         .zip(b.par_chunks(size))
+        .with_min_len(CHUNKS)
         .map(|(a, b)| {
             let mut sums = vec![0.0; channels];
             for (a, b) in a.chunks_exact(channels).zip(b.chunks_exact(channels)) {

@@ -9,7 +9,6 @@ use tress_raster::{GBuffer, ProjectedScene, ProjectedVertex, RasterError, Segmen
 
 type Floats<'py> = PyReadonlyArray1<'py, f32>;
 type Rows<'py> = PyReadonlyArray2<'py, f32>;
-type MeanAndWeight<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray1<f32>>);
 
 /// Adds the functions of `tress-raster` to the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -18,8 +17,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(raster_composite, module)?)?;
     module.add_function(wrap_pyfunction!(raster_strand_picture, module)?)?;
     module.add_function(wrap_pyfunction!(raster_visible_weight, module)?)?;
-    module.add_function(wrap_pyfunction!(raster_fit_colors, module)?)?;
-    module.add_function(wrap_pyfunction!(raster_splat_residual, module)?)
+    module.add_function(wrap_pyfunction!(raster_fit_colors, module)?)
 }
 
 /// Projected vertices (N, 4) of points (N, 3).
@@ -130,25 +128,6 @@ fn raster_fit_colors<'py>(
     let pixel_weight = pixel_weight.as_slice()?;
     let found = py.detach(|| tress_raster::fit_colors(&fragments, colors, target, pixel_weight, iterations, most));
     Ok(Array2::from(found).into_pyarray(py))
-}
-
-/// Weighted mean (N, 3) of the pixels' values over every point, and the weights (N,).
-#[pyfunction]
-fn raster_splat_residual<'py>(
-    py: Python<'py>,
-    pixel_offsets: PyReadonlyArray1<'py, i64>,
-    kind: PyReadonlyArray1<'py, u8>,
-    primitive: PyReadonlyArray1<'py, i32>,
-    parameter: Rows<'py>,
-    weight: Floats<'py>,
-    residual: Rows<'py>,
-    pixel_weight: Floats<'py>,
-    points: usize,
-) -> PyResult<MeanAndWeight<'py>> {
-    let fragments = segment_fragments(&pixel_offsets, &kind, &primitive, &parameter, &weight)?;
-    let (residual, pixel_weight) = (residual.as_slice()?.as_chunks().0, pixel_weight.as_slice()?);
-    let found = py.detach(|| tress_raster::splat_residual(&fragments, residual, pixel_weight, points));
-    Ok((Array2::from(found.mean).into_pyarray(py), found.weight.into_pyarray(py)))
 }
 
 fn segment_fragments<'a>(

@@ -28,4 +28,4 @@ pub use project::{ProjectedVertex, project};
 pub use rasterise::rasterise;
 pub use samples::SAMPLES;
 pub use scene::ProjectedScene;
-pub use splat::{SegmentFragments, VertexMean, splat_residual, visible_weight};
+pub use splat::{SegmentFragments, visible_weight};

@@ -3,15 +3,6 @@
 //! A fragment of a segment shows a mix of its two points, `(1 - t)` and `t`. Whatever is known of its pixel is handed back
 //! to the two points in the same shares. Sums run in the order of the fragments, so that they are the same bits always.
 
-/// Mean of the pixels in which a point shows, and how much it shows.
-#[derive(Debug, Clone, PartialEq)]
-pub struct VertexMean {
-    /// Weighted mean of the pixels' values for every point; 0 where it does not show.
-    pub mean: Vec<[f32; 3]>,
-    /// Sum of the weights for every point.
-    pub weight: Vec<f32>,
-}
-
 /// Fragments of segments, as flat arrays.
 #[derive(Debug, Clone, Copy)]
 pub struct SegmentFragments<'a> {
@@ -53,24 +44,4 @@ pub fn visible_weight(fragments: &SegmentFragments, points: usize) -> Vec<f32> {
     let mut sum = vec![0.0f64; points];
     fragments.for_each_share(|_, point, share| sum[point] += share);
     sum.into_iter().map(|s| s as f32).collect()
-}
-
-/// Weighted mean of the pixels' values over every point. `pixel_weight` is one factor a pixel.
-pub fn splat_residual(
-    fragments: &SegmentFragments,
-    residual: &[[f32; 3]],
-    pixel_weight: &[f32],
-    points: usize,
-) -> VertexMean {
-    let mut sum = vec![[0.0f64; 4]; points];
-    fragments.for_each_share(|pixel, point, share| {
-        let share = share * f64::from(pixel_weight[pixel]);
-        let entry = &mut sum[point];
-        for (channel, value) in residual[pixel].iter().enumerate() {
-            entry[channel] += share * f64::from(*value);
-        }
-        entry[3] += share;
-    });
-    let mean = |s: &[f64; 4]| if s[3] > 0.0 { [0, 1, 2].map(|c| (s[c] / s[3]) as f32) } else { [0.0; 3] };
-    VertexMean { mean: sum.iter().map(mean).collect(), weight: sum.iter().map(|s| s[3] as f32).collect() }
 }

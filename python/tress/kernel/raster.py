@@ -131,7 +131,8 @@ def fit_colors(
     """Colours (N, 3) float32 in [0, `most`] of the strand points, from `colors` (N, 3) on, nearing `target` (H, W, 3).
 
     SIRT with momentum: the mean colour of the hair in every pixel is compared with the target, and errors are handed
-    back as by `splat_residual`. `pixel_weight` (H, W): how much a pixel counts; 0 for not at all.
+    back to the points in the shares of their fragments, 1 - t and t. `pixel_weight` (H, W): how much a pixel
+    counts; 0 for not at all.
     """
     start = checked(colors, name="colors", dtype=np.float32, shape=(None, 3))
     _check_points(fragments, len(start))
@@ -139,20 +140,6 @@ def fit_colors(
     values = checked(target, name="target", dtype=np.float32, shape=(*size, 3)).reshape(-1, 3)
     factor = checked(pixel_weight, name="pixel_weight", dtype=np.float32, shape=size).reshape(-1)
     return _core.raster_fit_colors(*_segment_arrays(fragments), start, values, factor, int(iterations), float(most))
-
-
-def splat_residual(fragments: Fragments, *, residual: Array, pixel_weight: Array, points: int) -> tuple[Array, Array]:
-    """The transpose of shading: per strand point the weighted mean of `residual` (H, W, 3), and the weight.
-
-    Each fragment hands its pixel's residual to its two points in the shares 1 - t and t, times the fragment's weight
-    and `pixel_weight` (H, W). Returns mean (points, 3) float32, 0 where a point does not show, and weight (points,)
-    float32.
-    """
-    _check_points(fragments, points)
-    size = (fragments.height, fragments.width)
-    values = checked(residual, name="residual", dtype=np.float32, shape=(*size, 3)).reshape(-1, 3)
-    factor = checked(pixel_weight, name="pixel_weight", dtype=np.float32, shape=size).reshape(-1)
-    return _core.raster_splat_residual(*_segment_arrays(fragments), values, factor, points)
 
 
 def _segment_arrays(fragments: Fragments) -> tuple[Array, ...]:

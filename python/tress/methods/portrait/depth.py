@@ -5,7 +5,8 @@ strands near the outline, over the head, and along the hairline are held to it w
 depth strokes. Everywhere else the envelope holds with a weight some hundred times smaller, since strands without any
 constraint would leave the system singular. The paper's layering ("observe the local occlusion relationships") is no
 term of eq. 5; it is added as an inequality: a vertex flagged occluded lies at least `layer_gap` behind the strand
-that crosses over it. Where that is violated a constraint is set and the system is solved again.
+that crosses over it, which is the nearest one in plain view. Where that is violated a constraint is set and the system
+is solved again.
 """
 
 from dataclasses import dataclass
@@ -25,6 +26,10 @@ Array = np.ndarray[Any, Any]
 
 HAIR_ALPHA = 0.5
 """Pixels with more hair than this belong to the body of hair."""
+
+
+_CANDIDATES = 12
+"""Vertices looked at to find one of another strand: more than one strand has within the radius."""
 
 
 class Traced(Protocol):
@@ -50,7 +55,7 @@ class DepthParams(Params):
         0.004, low=0.0, high=0.1, unit="m", doc="Width of the known bands at outline and hairline."
     )
     every: int = param(3, low=1, high=50, doc="Every how many vertices are solved for; the others lie between.")
-    unknowns: int = param(60000, low=100, high=10000000, doc="Where there would be more, vertices lie farther apart.")
+    unknowns: int = param(30000, low=100, high=10000000, doc="Where there would be more, vertices lie farther apart.")
     neighbour_radius_px: float = param(5.0, low=0.5, high=50.0, unit="px", doc="How far neighbours may be.")
     neighbour_angle: float = param(0.35, low=0.01, high=1.57, unit="rad", doc="How much their directions may differ.")
     neighbour_count: int = param(6, low=1, high=64, doc="Most neighbours of a vertex.")
@@ -113,11 +118,15 @@ def depth(
         most=params.neighbour_count,
     )
     found = _solved(target, weight, offsets, near, target, params)
-    for _ in range(params.layer_rounds if occluded.any() else 0):
-        held = _under(points, occluded, found.z, params)
-        if not held.any():
+    under, over = _crossings(points, offsets, occluded, radius=params.neighbour_radius_px)
+    allowed, held = np.full(len(points), np.inf), np.zeros(len(points), np.bool_)
+    for _ in range(params.layer_rounds):
+        allowed[under] = found.z[over] - params.layer_gap
+        violated = found.z > allowed
+        if not violated.any():
             break
-        goal = np.where(held, np.minimum(found.z, _over(points, occluded, found.z) - params.layer_gap), target)
+        held |= violated
+        goal = np.where(held, allowed, target)
         found = _solved(goal, np.where(held, params.depth_weight, weight), offsets, near, found.z, params)
     report.number("vertices", len(traced.points))
     report.number("unknowns", len(points))
@@ -182,14 +191,15 @@ def _constraints(
     return target, weight.astype(np.float64)
 
 
-def _over(points: Array, occluded: Array, z: Array) -> Array:
-    """Depth of the nearest vertex that is not occluded."""
-    seen = np.nonzero(~occluded)[0]
-    if len(seen) == 0:
-        return np.full(len(z), np.inf)
-    return z[seen[KDTree(points[seen]).query(points)[1]]]
-
-
-def _under(points: Array, occluded: Array, z: Array, params: DepthParams) -> Array:
-    """Which occluded vertices are not behind what covers them."""
-    return occluded & (z > _over(points, occluded, z) - params.layer_gap)
+def _crossings(points: Array, offsets: Array, occluded: Array, *, radius: float) -> tuple[Array, Array]:
+    """Numbers of occluded vertices, and of the nearest vertex in plain view of *another* strand, within `radius` px."""
+    hidden, seen = np.nonzero(occluded)[0], np.nonzero(~occluded)[0]
+    if len(hidden) == 0 or len(seen) == 0:
+        return hidden[:0], seen[:0]
+    strand = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    distance, found = KDTree(points[seen]).query(points[hidden], k=_CANDIDATES, distance_upper_bound=radius)
+    over = seen[np.minimum(found, len(seen) - 1)]
+    other = np.isfinite(distance) & (strand[over] != strand[hidden][:, None])
+    crossed = other.any(axis=1)
+    nearest = np.take_along_axis(over, other.argmax(axis=1)[:, None], axis=1)[:, 0]
+    return hidden[crossed], nearest[crossed]
