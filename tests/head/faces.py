@@ -5,6 +5,7 @@ import skimage.data
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from tress.head.fit import FitParams
 from tress.head.landmarks import FaceLandmarks, landmarks_of
 from tress.head.pose import Pose
 from tress.head.statistical import StatisticalHead
@@ -22,9 +23,19 @@ def random_pose(rng: np.random.Generator) -> Pose:
     return Pose(rotation, float(rng.uniform(1000, 3000)), np.array([500.0, 450.0, 0.0]))
 
 
-def exact_landmarks(head: StatisticalHead, positions: NDArray[np.float64], pose: Pose) -> FaceLandmarks:
-    """What a perfect network would say, its depth law included."""
-    seen = pose.seen(head.at_landmarks(positions))
+def photographed(points: NDArray[np.float64], pose: Pose, *, distance: float) -> NDArray[np.float64]:
+    """Pixels (N, 2) of `points` (N, 3) by a pinhole whose axis meets the head's origin `distance` metres before it."""
+    x, y, z = (points @ pose.rotation.T).T
+    focal_px = pose.scale * distance
+    return np.stack([pose.offset[0] + focal_px * x / (distance - z), pose.offset[1] - focal_px * y / (distance - z)], 1)
+
+
+def exact_landmarks(
+    head: StatisticalHead, positions: NDArray[np.float64], pose: Pose, *, distance: float = FitParams().camera_distance
+) -> FaceLandmarks:
+    """What a perfect network would say of a photo from `distance` metres, its depth law included."""
+    points = head.at_landmarks(positions)
+    seen = np.column_stack([photographed(points, pose, distance=distance), pose.seen(points)[:, 2]])
     gain, slope = head.landmark_depth
     across = seen[[263, 362], :2].mean(axis=0) - seen[[33, 133], :2].mean(axis=0)
     down = np.array([-across[1], across[0]]) / np.linalg.norm(across)

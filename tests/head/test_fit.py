@@ -6,13 +6,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.head.faces import astronaut, exact_landmarks, random_pose
+from tests.head.faces import astronaut, exact_landmarks, photographed, random_pose
 from tress.head.cranium import cranium_weight
 from tress.head.definite import solve_definite
 from tress.head.fit import FitParams, FittedHead, doubts, fit_head
 from tress.head.landmarks import landmarks_of
 from tress.head.person import person_mask
-from tress.head.pose import similarity_pose
+from tress.head.pose import Pose, similarity_pose
 from tress.head.read_face import read_face
 from tress.head.statistical import load_statistical_head
 
@@ -50,6 +50,32 @@ def test_exact_landmarks_of_a_random_head_are_met(seed: int) -> None:
     turn = fitted.view_from_head[:3, :3] @ pose.rotation.T
     assert np.degrees(np.arccos(np.clip((np.trace(turn) - 1) / 2, -1, 1))) < 6
     assert fitted.error_of_eye_distance < 0.02
+
+
+@given(st.integers(0, 10_000), st.floats(0.6, 4.0))
+@settings(max_examples=15, deadline=None)
+def test_the_whole_head_lies_where_a_pinhole_sees_it(seed: int, distance: float) -> None:
+    pose = random_pose(np.random.default_rng(seed))
+    landmarks = exact_landmarks(HEAD, HEAD.mean, pose, distance=distance)
+    fitted = fit_head(landmarks, params=FitParams(camera_distance=distance))
+    skull = HEAD.masks["scalp"] > 0.5
+    away = fitted.project(fitted.positions_in_view) - photographed(HEAD.mean, pose, distance=distance)
+    assert np.linalg.norm(away[skull], axis=1).mean() < 0.0025 * pose.scale
+
+
+def test_without_perspective_the_cranium_would_come_out_too_large() -> None:
+    pose = Pose(np.eye(3), 2000.0, np.array([500.0, 450.0, 0.0]))
+    landmarks = exact_landmarks(HEAD, HEAD.mean, pose, distance=2.0)
+    side = (HEAD.masks["scalp"] > 0.5) & (np.abs(HEAD.mean[:, 0]) > 0.06)
+    x_px = photographed(HEAD.mean, pose, distance=2.0)[side, 0] - 500
+
+    def growth(distance: float) -> float:
+        fitted = fit_head(landmarks, params=FitParams(camera_distance=distance))
+        seen_px = fitted.project(fitted.positions_in_view)[side, 0] - 500
+        return float(np.median(seen_px / x_px) - 1)
+
+    assert growth(2.0) == pytest.approx(0, abs=0.005)
+    assert growth(1000.0) > 0.02
 
 
 def test_frames_agree() -> None:

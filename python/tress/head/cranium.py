@@ -17,24 +17,31 @@ CELL_M = 0.002
 
 
 def inward_pull(
-    positions: NDArray[np.float64], pose: Pose, mask: "MaskDistance", *, head: StatisticalHead, margin: float
+    seen: NDArray[np.float64],
+    pose: Pose,
+    mask: "MaskDistance",
+    *,
+    head: StatisticalHead,
+    margin: float,
+    held: NDArray[np.bool_],
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
-    """Which vertices of the scalp stick out of the person mask (less `margin`, metres), and how far they should go
-    back.
+    """Which vertices of the scalp, of all that are `seen` at (V, 2) px, stick out of the person mask (less `margin`,
+    metres) or are `held` (V,) at its edge since they once did, and how far they should go back.
 
-    Returns vertices (N,), directions (N, 3) in the head frame and distances (N,) metres along them. Empty where more
-    than half of the scalp lies outside: then the mask is not about this person.
+    Returns vertices (N,), directions (N, 3) in the head frame and distances (N,) metres along them, negative for those
+    that went back too far. Empty where more than half of the scalp lies outside: then the mask is not about this
+    person.
     """
     vertices = np.flatnonzero(head.masks["scalp"] > 0.5)
-    inside_px, *gradient = mask.at(pose.seen(positions[vertices])[:, :2])
+    inside_px, *gradient = mask.at(seen[vertices])
     depth = inside_px / pose.scale - margin
     direction = np.stack(gradient, axis=1)
     direction /= np.linalg.norm(direction, axis=1, keepdims=True).clip(min=1e-9)
-    out = depth < 0
-    if out.mean() > 0.5:
+    out = (depth < 0) | held[vertices]
+    if (inside_px < 0).mean() > 0.5:
         out[:] = False
     in_view = np.column_stack([direction[:, 0], -direction[:, 1], np.zeros(len(direction))])
-    pull = np.minimum(-depth, GREATEST_PULL_M)
+    pull = np.clip(-depth, -GREATEST_PULL_M, GREATEST_PULL_M)
     return vertices[out], (in_view @ pose.rotation)[out], pull[out]
 
 

@@ -6,11 +6,13 @@ face's outline on the far side follow the silhouette, not the skin: they count n
 network's depth counts a little, after a linear correction found on rendered heads; it halves the error of the yaw.
 
 The cranium carries no landmarks. It is prior, but must not stick out of the person mask: vertices of its silhouette
-that do are pulled inwards, less a margin for the hair that lies on it, and the shape is solved once more.
+that do are pulled inwards, and by the thickness of the hair that lies on it, and the shape is solved once more.
 
-Why not perspective: a portrait is taken from well over a metre, where the error is under the landmarks' noise. Limits:
-landmark noise hides most of the identity; expect 1 to 3 % of the eye distance at the landmarks, 2° of yaw, and some 5
-mm at the cranium. Past about 60° of yaw the landmarks themselves are guesses.
+The perspective of the camera, whose distance is a setting, is taken off the landmarks and put back on the fitted head
+(see `perspective`); the solvers know orthography alone.
+
+Limits: landmark noise hides most of the identity; expect 1 to 3 % of the eye distance at the landmarks, 2° of yaw, and
+some 4 mm at the cranium. Past about 60° of yaw the landmarks themselves are guesses.
 """
 
 from collections.abc import Mapping
@@ -25,6 +27,7 @@ from tress.head.cranium import inward_pull, mask_distance, reshaped_cranium
 from tress.head.definite import solve_definite
 from tress.head.landmark_basis import landmark_basis, near_side, side_products
 from tress.head.landmarks import FaceLandmarks
+from tress.head.perspective import enlargement, seen_in_perspective, without_perspective
 from tress.head.pose import refined_pose, similarity_pose
 from tress.head.statistical import StatisticalHead, load_statistical_head
 
@@ -35,7 +38,7 @@ POOR_ERROR = 0.06
 INDEPENDENT_POINTS = 200.0
 """The landmarks' errors go together: 468 of them tell no more than about so many would on their own."""
 INDEPENDENT_PULLS = 40
-PULL_NOISE_M = 0.004
+PULL_NOISE_M = 0.0025
 """How exactly so many independent vertices of the cranium are to follow the person mask."""
 
 
@@ -48,8 +51,9 @@ class FitParams(Params):
     expression_spread: float = param(0.35, low=0.01, high=2.0, doc="Standard deviation of each expression.")
     depth_weight: float = param(0.2, low=0.0, high=1.0, doc="How much the landmarks' own depth counts.")
     far_yaw: float = param(0.14, low=0.0, high=1.6, unit="rad", doc="Turn from which the far outline counts nothing.")
-    mask_margin: float = param(0.004, low=0.0, high=0.05, unit="m", doc="Distance kept from the person mask's edge.")
-    mask_rounds: int = param(3, low=0, high=20, doc="Rounds that pull the cranium into the person mask.")
+    camera_distance: float = param(2.0, low=0.3, high=1000.0, unit="m", doc="Distance of the camera from the head.")
+    mask_margin: float = param(0.006, low=0.0, high=0.05, unit="m", doc="Hair between skull and person mask's edge.")
+    mask_rounds: int = param(4, low=0, high=20, doc="Rounds that pull the cranium into the person mask.")
     cranium_scale: float = param(1.0, low=0.7, high=1.4, doc="Size of the cranium over what was fitted.")
     cranium_tilt: float = param(0.0, low=-0.6, high=0.6, unit="rad", doc="Nod of the cranium against the face.")
 
@@ -147,7 +151,9 @@ class _ShapeSolver:
         self._prior = np.full(len(self._basis.basis), params.expression_spread**-2)
         self._prior[:count] = 1.0
         self._coefficients = np.zeros(len(self._prior))
-        self._target = corrected_target(landmarks, head.landmark_depth)
+        self._given_target = corrected_target(landmarks, head.landmark_depth)
+        self._target = self._given_target
+        self._distance = params.camera_distance
         self._depth_weight = params.depth_weight if np.ptp(landmarks.points[:, 2]) > 0 else 0.0
         self._given = landmarks.weights.astype(np.float64)
         self._pose = similarity_pose(self._basis.rest, self._target, weight=self._given)
@@ -159,6 +165,7 @@ class _ShapeSolver:
         """Rounds of pose and shape in turn."""
         for _ in range(rounds):
             points = self._basis.points(self._coefficients)
+            self._target = without_perspective(self._given_target, points, self._pose, distance=self._distance)
             self._pose = refined_pose(
                 self._pose, points, self._target, weight=self._weight(), depth_weight=self._depth_weight
             )
@@ -169,12 +176,20 @@ class _ShapeSolver:
         edge = mask_distance(mask, px_per_metre=self._pose.scale)
         if edge is None:
             return
+        held = np.zeros(len(self._head.mean), bool)
         for _ in range(self._params.mask_rounds):
+            positions = self._positions()
             vertices, rows, distance = inward_pull(
-                self._positions(), self._pose, edge, head=self._head, margin=self._params.mask_margin
+                seen_in_perspective(positions, self._pose, distance=self._distance),
+                self._pose,
+                edge,
+                head=self._head,
+                margin=self._params.mask_margin,
+                held=held,
             )
             if len(vertices) == 0:
                 return
+            held[vertices] = True
             along = np.zeros((len(self._prior), len(vertices)))
             along[: self._basis.shape_count] = np.einsum("knc,nc->kn", self._head.shape_components[:, vertices], rows)
             trust = 1 / (PULL_NOISE_M * np.sqrt(max(len(vertices) / INDEPENDENT_PULLS, 1.0)))
@@ -186,7 +201,7 @@ class _ShapeSolver:
     def fitted(self) -> FittedHead:
         """The record, in the view frame."""
         head, pose, params = self._head, self._pose, self._params
-        positions = self._positions()
+        positions = self._as_seen(self._positions())
         center = head.center(positions)
         upright = reshaped_cranium(positions - center, head=head, scale=params.cranium_scale, tilt=params.cranium_tilt)
         cx, cy, _ = pose.seen(center[None])[0]
@@ -243,10 +258,17 @@ class _ShapeSolver:
         shape, expression = np.split(self._coefficients, [self._basis.shape_count])
         return self._head.positions(shape=shape, expression=expression)
 
+    def _as_seen(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """`positions` (V, 3) enlarged across the camera's axis, so that orthography shows them in perspective."""
+        factor = enlargement(positions, self._pose, distance=self._distance)[:, None]
+        along = self._pose.rotation[2] * (positions * self._pose.rotation[2]).sum(axis=1)[:, None]
+        return along + (positions - along) * factor
+
     def _error_px(self) -> float:
         weight = self._weight()
-        seen = self._pose.seen(self._basis.points(self._coefficients))
-        distance = np.linalg.norm((self._target - seen)[:, :2], axis=1)
+        points = self._basis.points(self._coefficients)
+        seen = seen_in_perspective(points, self._pose, distance=self._distance)
+        distance = np.linalg.norm(self._given_target[:, :2] - seen, axis=1)
         return float(np.sum(weight * distance) / weight.sum())
 
 
