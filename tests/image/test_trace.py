@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.ndimage import map_coordinates
 
 from tress.base.errors import InputError
 from tress.image.orient import OrientationMap, OrientParams, orientation_map
@@ -107,17 +108,14 @@ def test_both_strands_of_a_crossing_survive_and_the_lower_one_is_occluded_there(
     assert (strands.confidence[under][strands.occluded[under]] == 0).all()
 
 
-def test_a_gap_is_bridged_as_long_as_health_lasts():
-    angle = np.zeros((40, SIZE), np.float32)
+@pytest.mark.parametrize(("gap", "health", "pieces"), [(3, 5, 1), (3, 2, 2), (6, 5, 2), (6, 6, 2), (6, 8, 1)])
+def test_a_gap_is_bridged_by_fewer_uncertain_steps_than_the_health(gap, health, pieces):
+    """Bilinear confidence is below w_low over `gap` - 0.9 px: 2 or 3 steps for a gap of 3 px, 6 or 7 for one of 6."""
     y, x = np.mgrid[:40, :SIZE] + 0.5
-    ridge = np.exp(-((y - 20) ** 2) / 2).astype(np.float32)
-    gap = (x > 40) & (x < 45)
-    found = OrientationMap(angle, np.where(gap, 0, ridge).astype(np.float32))
-    whole = parts(traced(found, params=TraceParams(health=12)))
-    apart = parts(traced(found, params=TraceParams(health=3)))
-    assert len(whole) == 1
-    assert len(apart) == 2
-    assert not traced(found, params=TraceParams(health=12)).occluded.any()
+    ridge = np.where((x > 40) & (x < 40 + gap), 0, np.exp(-((y - 20) ** 2) / 2)).astype(np.float32)
+    strands = traced(OrientationMap(np.zeros((40, SIZE), np.float32), ridge), params=TraceParams(health=health))
+    assert strands.count == pieces
+    assert not strands.occluded.any()
 
 
 def test_curvature_is_kept_where_nothing_is_seen():
@@ -175,6 +173,23 @@ def test_seeds_are_ridge_pixels_strongest_first():
     assert seeds[:, 1].tolist() == list(range(29, -1, -1))
 
 
+def test_seeds_are_those_of_equation_4():
+    rng = np.random.default_rng(4)
+    confidence = rng.random((30, 40)).astype(np.float32)
+    angle = rng.uniform(0, np.pi, confidence.shape).astype(np.float32)
+    y, x = np.mgrid[:30, :40]
+    across = 1.3 * np.stack([np.cos(angle), -np.sin(angle)])
+    left, right = (
+        map_coordinates(confidence, [y + sign * across[0], x + sign * across[1]], order=1, mode="nearest")
+        for sign in (-1, 1)
+    )
+    expected = (confidence > 0.3) & (confidence - np.maximum(left, right) > 0.2 * confidence)
+    found = np.zeros(confidence.shape, bool)
+    found[tuple(ridge_seeds(angle, confidence=confidence, high=0.3, epsilon=0.2, reach_px=1.3).T)] = True
+    assert 20 < expected.sum() < 600
+    np.testing.assert_array_equal(found, expected)
+
+
 def test_sampling_is_exact_for_linear_pictures_and_repeats_the_border():
     y, x = np.mgrid[:7, :9] + 0.5
     picture = np.stack([2 * x + 3 * y, -x], axis=-1)
@@ -207,6 +222,8 @@ def test_any_map_gives_strands_inside_the_mask(height, width, seed, unknown):
     )
     assert np.isfinite(curves.points).all()
     assert (np.diff(curves.offsets) >= 2).all()
+    assert not curves.occluded[curves.offsets[:-1]].any()
+    assert not curves.occluded[curves.offsets[1:] - 1].any()
     assert curves.offsets[-1] == len(curves.points) == len(curves.occluded) == len(curves.confidence)
     assert ((curves.points >= -1) & (curves.points <= [width + 1, height + 1])).all()
 
