@@ -17,6 +17,8 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
 
 from tress.base.errors import InputError
 from tress.base.params import Params, param
@@ -37,6 +39,16 @@ _ALIKE = 1.0
 _BARE = (0.42, 0.58)
 """Share of hair's seeds that look like the face: up to the first it is hair, from the second on the head is bald."""
 
+_EVEN_TEXTURE, _PER_TEXTURE = 0.4, 1.4
+_EVEN_GRAIN, _PER_GRAIN = 0.57, 3.5
+"""Fine texture and grain at which a patch is as likely hair as not, and logarithm of odds for each unit more: middle and
+slope between hair (0.8 and 0.7 in the mean) and skin and clothes (0.0 and 0.43) in common photographs."""
+_MOST_ODDS = 2.0
+_RIM = 35.0
+"""Step in Lab to a neighbour at which a patch's texture is half its own and half the outline of something."""
+_NEAR = 0.06
+"""Distance from the person, as part of the picture's longer side, at which the backdrop teaches 1/e as much."""
+
 
 @dataclass(frozen=True)
 class LayerParams(Params):
@@ -53,6 +65,7 @@ class LayerParams(Params):
     )
     smoothness: float = param(2.5, low=0.0, high=100.0, doc="Cost of a border between like superpixels.")
     contrast: float = param(8.0, low=0.1, high=100.0, unit="Lab", doc="Difference at which a border costs 1/e.")
+    strand_weight: float = param(0.6, low=0.0, high=10.0, doc="Weight of a patch's strandiness, as logarithm of odds.")
     reach_weight: float = param(0.5, low=0.0, high=10.0, doc="Weight of the way from sure hair to a patch.")
     reach_bonus: float = param(1.5, low=0.0, high=10.0, doc="What being within reach says for hair.")
     most_reach: float = param(6.0, low=0.0, high=100.0, doc="Most that being out of reach says against hair.")
@@ -93,14 +106,20 @@ def segment_layers(
     strokes = _checked_strokes(strokes, image)
     if prior.shape != (*image.shape[:2], LAYER_COUNT):
         raise InputError(f"the prior is {prior.shape}; {(*image.shape[:2], LAYER_COUNT)} was expected.")
-    scale = min(1.0, params.work_size / max(image.shape[:2]))
-    size = (max(1, round(image.shape[1] * scale)), max(1, round(image.shape[0] * scale)))
-    small = cv2.resize(image, size, interpolation=cv2.INTER_AREA)
+    small = _at_work_size(image, params.work_size)
     patches = superpixels(small, count=params.superpixels, compactness=params.compactness)  # type: ignore[arg-type]
     patch_prior = _patch_prior(prior, patches)
     patch_stroke = _patch_strokes(strokes, patches)
     label, soft = _cut_layers(patches, patch_prior, patch_stroke, params)
     return _at_full_size(image, small, patches, label, soft, strokes, params)  # type: ignore[arg-type]
+
+
+def _at_work_size(image: NDArray[np.uint8], longer_side: int) -> NDArray[np.uint8]:
+    """The photograph, smaller or larger, with one size of patches and textures whatever its own."""
+    scale = longer_side / max(image.shape[:2])
+    size = (max(1, round(image.shape[1] * scale)), max(1, round(image.shape[0] * scale)))
+    sized = cv2.resize(image, size, interpolation=cv2.INTER_AREA if scale < 1 else cv2.INTER_CUBIC)
+    return np.asarray(sized, np.uint8)
 
 
 def _checked_strokes(strokes: NDArray[np.uint8] | None, image: NDArray[np.uint8]) -> NDArray[np.uint8]:
@@ -151,8 +170,33 @@ def _cut_layers(
     return label, cost
 
 
+def _strand_odds(patches: Superpixels) -> NDArray[np.float64]:
+    """Logarithm of odds (N,) for hair, of any colour: its fine contrast is strong and runs one way."""
+    odds = _PER_TEXTURE * (patches.texture - _EVEN_TEXTURE) + _PER_GRAIN * (patches.grain - _EVEN_GRAIN)
+    odds = np.clip(odds, -_MOST_ODDS, _MOST_ODDS).astype(np.float64)
+    return odds / (1 + (_greatest_step(patches) / _RIM) ** 4)
+
+
+def _greatest_step(patches: Superpixels) -> NDArray[np.float64]:
+    """(N,) largest difference in Lab to a neighbour."""
+    step = np.zeros(patches.count)
+    first, second = patches.edges.T
+    difference = np.linalg.norm(patches.lab[first] - patches.lab[second], axis=1)
+    np.maximum.at(step, first, difference)
+    np.maximum.at(step, second, difference)
+    return step
+
+
 def _sure_places(prior: NDArray[np.float64], stroke: NDArray[np.uint8], patches: Superpixels) -> NDArray[np.float64]:
-    return _with_strokes(patches.area[:, None].astype(np.float64) * np.maximum(prior - 0.4, 0) ** 2, stroke, patches)
+    return _with_strokes(_lesson(prior, patches)[:, None] * np.maximum(prior - 0.4, 0) ** 2, stroke, patches)
+
+
+def _lesson(prior: NDArray[np.float64], patches: Superpixels) -> NDArray[np.float64]:
+    """How much each patch (N,) has to teach: its area, and less where the backdrop is far from the person."""
+    person = (prior[:, BACKGROUND] < 0.5)[patches.label]
+    away = cv2.distanceTransform((~person).astype(np.uint8), cv2.DIST_L2, 5)
+    distance = mean_over(patches.label, np.asarray(away, np.float32), patches.area) / max(patches.label.shape)
+    return patches.area * (0.05 + 0.95 * np.exp(-distance / _NEAR)) if person.any() else patches.area.astype(np.float64)
 
 
 def _without_bare_hair(
@@ -205,15 +249,35 @@ def _with_reach(
 ) -> NDArray[np.float64]:
     """Costs (N, 4) in which hair is dearer the harder it is to get there from the hair's seeds, walking over what is
     likely hair, and clothes are dearer where it is easy: long hair goes on downwards."""
-    behind = cost[:, HAIR] - cost[:, [BACKGROUND, BODY, FACE]].min(axis=1)
+    strand = params.strand_weight * _strand_odds(patches) * (cost[:, HAIR] < _NEVER)
+    behind = cost[:, HAIR] - strand - cost[:, [BACKGROUND, BODY, FACE]].min(axis=1)
     toll = np.maximum(behind, 0)
-    start = (seeds > 0.3 * seeds.max()) & (behind < 0)
-    way = np.minimum(reach(toll, edges=patches.edges, start=start | (stroke == HAIR)) - toll, _NEVER)
+    start = _largest_patchwork((seeds > 0.3 * seeds.max()) & (behind < 0), patches)
+    edges = np.concatenate([patches.edges, _over_the_top(patches, (behind < 0) & (prior[:, HAIR] > 0.4))])
+    way = np.minimum(reach(toll, edges=edges, start=start | (stroke == HAIR)) - toll, _NEVER)
     cost = cost.copy()
     cost[:, HAIR] += np.minimum(params.reach_weight * way, params.most_reach)
+    cost[:, HAIR] = np.maximum(cost[:, HAIR] - strand * np.exp(-way), 0)
     cost[:, BODY] += params.reach_bonus * (way < 1) * (prior[:, HAIR] > 0.1) * (1 - np.minimum(way, 1))
     cost[stroke == HAIR, HAIR] = 0
     return cost
+
+
+def _over_the_top(patches: Superpixels, hairy: NDArray[np.bool_]) -> NDArray[np.int32]:
+    """Pairs (K, 2) of patches at the picture's upper rim that hair joins above it, where the head is cut off."""
+    rim = np.unique(patches.label[0])
+    rim = rim[hairy[rim]]
+    rim = rim[np.argsort(patches.center[rim, 0], kind="stable")]
+    return np.stack([rim[:-1], rim[1:]], axis=1).astype(np.int32)
+
+
+def _largest_patchwork(chosen: NDArray[np.bool_], patches: Superpixels) -> NDArray[np.bool_]:
+    """`chosen` (N,) without connected groups of patches of less than a twentieth of the largest group's area."""
+    inside = patches.edges[chosen[patches.edges].all(axis=1)]
+    graph = csr_matrix((np.ones(len(inside), bool), (inside[:, 0], inside[:, 1])), shape=(patches.count,) * 2)
+    group = connected_components(graph, directed=False)[1]
+    area = np.bincount(group, weights=np.where(chosen, patches.area, 0.0))
+    return chosen & (area[group] >= 0.05 * area.max())
 
 
 def _with_strokes(weights: NDArray[np.float64], stroke: NDArray[np.uint8], patches: Superpixels) -> NDArray[np.float64]:
@@ -228,7 +292,7 @@ def _weights_of_cut(
 ) -> NDArray[np.float64]:
     weights = np.zeros_like(prior)
     node = np.arange(len(label))
-    weights[node, label] = patches.area * prior[node, label]
+    weights[node, label] = _lesson(prior, patches) * prior[node, label]
     return _with_strokes(weights, stroke, patches)
 
 

@@ -52,7 +52,7 @@ def superpixels(image: NDArray[np.uint8], *, count: int, compactness: float) -> 
     label = slic(
         lab,
         n_segments=count,
-        compactness=compactness,
+        compactness=compactness / max(float(np.ptp(lab)), 1.0),  # `slic` first scales the values to [0, 1]
         max_num_iter=_ITERATIONS,
         convert2lab=False,
         start_label=0,

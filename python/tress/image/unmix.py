@@ -85,10 +85,10 @@ def _made_exact(
     """The background takes what the mixture still lacks; nearly solid foreground takes the rest."""
     rest = (light - share * foreground) / np.maximum(1 - share, _LEAST_SHARE)
     behind = np.where(share < 1, np.clip(rest, 0, 1), background)
-    rest = (light - (1 - share) * behind) / np.maximum(share, _LEAST_SHARE)
+    own = (light - (1 - share) * behind) / np.maximum(share, _LEAST_SHARE)
     solid = _ramp(share, 0.5) * (share > 0)
-    foreground = foreground + solid * (np.clip(rest, 0, 1) - foreground)
-    parts = (share[..., 0], foreground, behind)
+    front = foreground + solid * (np.clip(own, 0, 1) - foreground)
+    parts = (share[..., 0], front, behind)
     return Unmixed(*(np.asarray(part, np.float32) for part in parts))
 
 
