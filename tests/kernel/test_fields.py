@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from scipy.ndimage import distance_transform_edt
+from scipy.ndimage import distance_transform_edt, map_coordinates
 from scipy.sparse import coo_array, diags_array
 from scipy.sparse.linalg import spsolve
 
@@ -20,6 +20,42 @@ def disc(size: int) -> np.ndarray:
 def test_distance_agrees_with_scipy():
     marks = np.random.default_rng(1).random((9, 17, 13)) > 0.97
     assert np.allclose(fields.distance(marks), distance_transform_edt(~marks), atol=1e-5)
+
+
+def test_the_nearest_voxel_is_as_far_as_scipy_says():
+    marks = np.random.default_rng(2).random((8, 12, 15)) > 0.98
+    found = fields.nearest(marks)
+    assert marks.ravel()[found.cell].all()
+    gap = np.stack(np.indices(marks.shape)) - np.stack(np.unravel_index(found.cell, marks.shape))
+    assert np.allclose(np.linalg.norm(gap, axis=0), distance_transform_edt(~marks), atol=1e-5)
+
+
+def test_samples_agree_with_scipy():
+    random = np.random.default_rng(3)
+    values = random.normal(size=(6, 7, 8)).astype(np.float32)
+    places = random.uniform(-1, 9, (300, 3))
+    expected = map_coordinates(values, places[:, ::-1].T - 0.5, order=1, mode="nearest")
+    assert np.allclose(fields.sample(values, places=places), expected, atol=1e-5)
+
+
+def test_diffused_axes_agree_with_tensors_diffused_one_by_one():
+    random = np.random.default_rng(4)
+    mask = random.random((5, 6, 7)) > 0.2
+    vectors = random.normal(size=(int(mask.sum()), 3))
+    vectors /= np.linalg.norm(vectors, axis=1, keepdims=True)
+    weights = random.uniform(0, 2, len(vectors))
+    found = fields.diffuse_axes(vectors, mask=mask, weights=weights, accuracy=1e-10, max_iterations=1000)
+    x, y, z = vectors.T
+    held = np.zeros(mask.shape)
+    held[mask] = weights
+    channels = []
+    for channel in (x * x, y * y, z * z, x * y, x * z, y * z, x, y, z):
+        given = np.zeros(mask.shape)
+        given[mask] = channel
+        channels.append(fields.diffuse(given, mask=mask, weights=held, accuracy=1e-10).values[mask])
+    alone = np.stack(channels, axis=1)
+    axes = fields.principal_axes(alone[:, :6], hints=alone[:, 6:])
+    assert np.abs(np.abs((found.axes * axes).sum(axis=1)) - 1).max() < 1e-6
 
 
 def test_harmonic_between_two_circles_is_the_logarithm():

@@ -68,37 +68,55 @@ def curves() -> Curves:
     return Curves(points.reshape(-1, 2).astype(np.float32), np.arange(41) * 20, np.zeros(800, bool))
 
 
-def solid_pixels() -> np.ndarray:
+def long_alpha(edges: tuple[float, float] = (-0.15, -0.15)) -> np.ndarray:
+    """(H, W): the cap, and hair that hangs at either side down to `edges` metres."""
+    y = (SIZE / 2 - (np.mgrid[:SIZE, :SIZE] + 0.5)[0]) / SCALE
+    x = ((np.mgrid[:SIZE, :SIZE] + 0.5)[1] - SIZE / 2) / SCALE
+    side = (np.abs(x) > 0.075) & (np.abs(x) < RADIUS + 0.012) & (y < 0.05) & (y > np.where(x < 0, *edges))
+    return np.maximum(hair_alpha(), side).astype(np.float32)
+
+
+def solid_pixels(alpha: np.ndarray | None = None) -> np.ndarray:
     """(H, W) bool: the ball without hair."""
+    hair = hair_alpha() if alpha is None else alpha
     y, x = (np.mgrid[:SIZE, :SIZE] + 0.5 - SIZE / 2) / SCALE
-    return (np.hypot(x, y) < RADIUS) & (hair_alpha() < 0.5)
+    return (np.hypot(x, y) < RADIUS) & (hair < 0.5)
 
 
-def small_depths(strokes: np.ndarray | None = None, report: Report | None = None) -> StrandDepths:
+def small_depths(
+    strokes: np.ndarray | None = None, report: Report | None = None, alpha: np.ndarray | None = None
+) -> StrandDepths:
     """Depths of the curves."""
     return depth(
         curves(),
         head=ball(),
-        alpha=hair_alpha(),
-        solid=solid_pixels(),
+        alpha=hair_alpha() if alpha is None else alpha,
+        solid=solid_pixels(alpha),
         depth_strokes=strokes,
         report=report or Report(),
     )
 
 
-def small_volume() -> HairVolume:
-    """Volume of the cap."""
+def small_volume(alpha: np.ndarray | None = None) -> HairVolume:
+    """Volume of the cap, or of the hair that `alpha` shows."""
     stripes = 0.5 + 0.3 * np.sin(np.mgrid[:SIZE, :SIZE][1] * 1.3)
-    return volume(small_depths(), traced=curves(), brightness=stripes, alpha=hair_alpha(), head=ball(), report=Report())
+    return volume(
+        small_depths(alpha=alpha),
+        traced=curves(),
+        brightness=stripes,
+        alpha=hair_alpha() if alpha is None else alpha,
+        head=ball(),
+        report=Report(),
+    )
 
 
-def small_hair(volume_: HairVolume, report: Report, seed: int = 0) -> GrownHair:
+def small_hair(volume_: HairVolume, report: Report, seed: int = 0, alpha: np.ndarray | None = None) -> GrownHair:
     """Some strands of the cap."""
     color = np.full((SIZE, SIZE, 3), 0.2, np.float32)
     return grow(
         volume_,
         foreground=color,
-        alpha=hair_alpha(),
+        alpha=hair_alpha() if alpha is None else alpha,
         head=ball(),
         params=GrowParams(count=3000),
         seed=seed,

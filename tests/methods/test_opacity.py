@@ -37,11 +37,19 @@ def scene() -> FlatScene:
     return flat_scene(Scene(strands={"hair": hair}, meshes={"head": head}))
 
 
-def fitted(scene: FlatScene, alpha: np.ndarray, *, covered: np.ndarray | None = None, rounds: int = 2):
+def fitted(
+    scene: FlatScene,
+    alpha: np.ndarray,
+    *,
+    covered: np.ndarray | None = None,
+    on_skin: np.ndarray | None = None,
+    rounds: int = 2,
+):
     return with_fitted_opacity(
         scene,
         matte_alpha=alpha.astype(np.float32),
         covered=np.zeros(alpha.shape, bool) if covered is None else covered,
+        on_skin=np.zeros(len(scene.points), bool) if on_skin is None else on_skin,
         xy_from_world=CAMERA,
         strand_bias_m=0.0,
         min_width_px=1.0,
@@ -84,3 +92,9 @@ def test_hair_behind_the_body_keeps_its_opacity(scene):
     assert np.array_equal(seen.scene.alpha[upper], scene.alpha[upper])
     free = lower & (scene.points[:, 2] > MESH_Z)
     assert seen.scene.alpha[free].max() < 0.05
+
+
+def test_hidden_hair_on_the_skin_keeps_its_opacity(scene):
+    on_skin = scene.points[:, 1] > 0
+    seen = fitted(scene, np.zeros((SIDE, SIDE)), on_skin=on_skin)
+    assert np.array_equal(seen.scene.alpha[on_skin], scene.alpha[on_skin])

@@ -1,5 +1,6 @@
 //! Orientation and scalar fields on pixels and voxels: diffusion and streamlines.
 
+pub mod axes;
 pub mod depth;
 pub mod diffuse;
 pub mod distance;
@@ -8,6 +9,7 @@ mod grid;
 pub mod mesh_depth;
 pub mod neighbours;
 pub mod principal;
+pub mod sample;
 mod sums;
 pub mod trace;
 

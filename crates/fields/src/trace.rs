@@ -156,10 +156,11 @@ impl Tracer<'_> {
         if self.taken(seed.point, cover) || self.full(seed.point, density, cover) {
             return None;
         }
-        let (mut back, rooted) = self.walk(seed.point, -1.0, seed.backward, density, cover);
-        let (ahead, _) = self.walk(seed.point, 1.0, seed.forward, density, cover);
+        let start = self.out_of_head(seed.point);
+        let (mut back, rooted) = self.walk(start, -1.0, seed.backward, density, cover);
+        let (ahead, _) = self.walk(start, 1.0, seed.forward, density, cover);
         back.reverse();
-        back.push(seed.point);
+        back.push(start);
         back.extend(ahead);
         let length: f64 = back.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
         (back.len() >= 2 && length >= self.options.min_length).then_some(Path { points: back, rooted })
@@ -355,6 +356,12 @@ impl Tracer<'_> {
             self.head_distance(point + DVec3::Z * h) - self.head_distance(point - DVec3::Z * h),
         );
         if slope.is_finite() { point + slope.normalize_or_zero() * (self.options.clearance - gap) } else { point }
+    }
+
+    /// The point itself, or the one `clearance` before the skin where it is nearer or inside.
+    fn out_of_head(&self, point: DVec3) -> DVec3 {
+        let gap = self.head_distance(point);
+        if gap < self.options.clearance { self.pushed_out(point, gap) } else { point }
     }
 
     fn on_sheet(&self, point: DVec3) -> Option<usize> {

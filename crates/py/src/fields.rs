@@ -6,12 +6,14 @@ use numpy::ndarray::{Array2, ArrayView2};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3, PyReadonlyArray4};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use tress_fields::axes::diffuse_axes;
 use tress_fields::depth::{DepthOptions, strand_depths};
 use tress_fields::diffuse::{DiffuseOptions, diffuse};
-use tress_fields::distance::distance;
+use tress_fields::distance::{distance, nearest};
 use tress_fields::mesh_depth::mesh_depth;
 use tress_fields::neighbours::{Lists, NeighbourOptions, neighbours};
 use tress_fields::principal::principal_axes;
+use tress_fields::sample::sample;
 use tress_fields::trace::{FrontSheet, Seed, TraceOptions, VoxelField, trace};
 use tress_fields::{FieldError, GridShape};
 
@@ -20,7 +22,10 @@ type Flat<'py, T> = Bound<'py, PyArray1<T>>;
 /// Adds the functions of `tress-fields` to the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(fields_distance, module)?)?;
+    module.add_function(wrap_pyfunction!(fields_nearest, module)?)?;
+    module.add_function(wrap_pyfunction!(fields_sample, module)?)?;
     module.add_function(wrap_pyfunction!(fields_diffuse, module)?)?;
+    module.add_function(wrap_pyfunction!(fields_diffuse_axes, module)?)?;
     module.add_function(wrap_pyfunction!(fields_mesh_depth, module)?)?;
     module.add_function(wrap_pyfunction!(fields_principal_axes, module)?)?;
     module.add_function(wrap_pyfunction!(fields_neighbours, module)?)?;
@@ -51,6 +56,47 @@ fn fields_distance<'py>(py: Python<'py>, inside: PyReadonlyArray3<'py, bool>) ->
     let shape = shape_of(inside.shape());
     let marks = inside.as_slice()?;
     Ok(py.detach(|| distance(marks, shape)).map_err(refused)?.into_pyarray(py))
+}
+
+/// Distance in voxels to the nearest marked voxel, and its number; both flat.
+#[pyfunction]
+fn fields_nearest<'py>(
+    py: Python<'py>,
+    inside: PyReadonlyArray3<'py, bool>,
+) -> PyResult<(Flat<'py, f32>, Flat<'py, u32>)> {
+    let shape = shape_of(inside.shape());
+    let marks = inside.as_slice()?;
+    let out = py.detach(|| nearest(marks, shape)).map_err(refused)?;
+    Ok((out.distance.into_pyarray(py), out.cell.into_pyarray(py)))
+}
+
+/// Values between the voxels' centres; `places` has rows of column, row, layer.
+#[pyfunction]
+fn fields_sample<'py>(
+    py: Python<'py>,
+    values: PyReadonlyArray3<'py, f32>,
+    places: PyReadonlyArray2<'py, f64>,
+) -> PyResult<Flat<'py, f32>> {
+    let (shape, places) = (shape_of(values.shape()), points3(places.as_array()));
+    let values = values.as_slice()?;
+    Ok(py.detach(|| sample(values, &places, shape)).map_err(refused)?.into_pyarray(py))
+}
+
+/// Directions of the marked voxels, in their order, from their vectors and weights; steps, converged.
+#[pyfunction]
+fn fields_diffuse_axes<'py>(
+    py: Python<'py>,
+    mask: PyReadonlyArray3<'py, bool>,
+    vectors: PyReadonlyArray2<'py, f64>,
+    weights: PyReadonlyArray1<'py, f64>,
+    accuracy: f64,
+    max_iterations: usize,
+) -> PyResult<(Bound<'py, PyArray2<f64>>, usize, bool)> {
+    let (shape, vectors) = (shape_of(mask.shape()), points3(vectors.as_array()));
+    let (mask, weights) = (mask.as_slice()?, weights.as_slice()?);
+    let options = DiffuseOptions { accuracy, max_iterations };
+    let out = py.detach(|| diffuse_axes(mask, &vectors, weights, shape, options)).map_err(refused)?;
+    Ok((triples(&out.axes)?.into_pyarray(py), out.iterations, out.converged))
 }
 
 /// Diffused values (flat), steps, converged. Weights of infinity fix a cell.

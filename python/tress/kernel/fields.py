@@ -31,6 +31,42 @@ def distance(inside: Any) -> Array:
 
 
 @dataclass(frozen=True)
+class Nearest:
+    """(L, R, C) each: `distance` float32 in voxels to the nearest marked voxel, and `cell` uint32, its number in the
+    flattened box.
+    """
+
+    distance: Array
+    cell: Array
+
+
+def nearest(inside: Any) -> Nearest:
+    """Of every voxel, the nearest where `inside` (L, R, C) is true; infinitely far, and itself, where none is marked.
+
+    >>> nearest([[[True, False, False, False, True]]]).cell.tolist()
+    [[[0, 0, 0, 4, 4]]]
+    """
+    marks = checked(inside, name="inside", dtype=np.bool_, shape=(None, None, None))
+    far, cell = _core.fields_nearest(marks)
+    return Nearest(far.reshape(marks.shape), cell.reshape(marks.shape))
+
+
+def sample(values: Any, *, places: Any) -> Array:
+    """(N,) float32: `values` (L, R, C) float32 at `places` (N, 3): column, row, layer, a voxel's centre at + 0.5.
+
+    Trilinear; outside, the border's.
+
+    >>> sample(np.float32([[[1, 3]]]), places=[[1.0, 0.5, 0.5]]).tolist()
+    [2.0]
+    """
+    box = checked(values, name="values", dtype=np.float32, shape=(None, None, None))
+    try:
+        return _core.fields_sample(box, checked(places, name="places", dtype=np.float64, shape=(None, 3)))
+    except ValueError as error:
+        raise InputError(str(error)) from error
+
+
+@dataclass(frozen=True)
 class Diffused:
     """`values` as given to `diffuse`, float64, 0 outside the mask; the solver's steps and whether it converged."""
 
@@ -72,6 +108,43 @@ def diffuse(
         int(max_iterations),
     )
     return Diffused(flat.reshape(given.shape), iterations, converged)
+
+
+@dataclass(frozen=True)
+class DiffusedAxes:
+    """`axes` (N, 3) float64 unit, one a marked voxel in their order, zero where nothing reaches; the solver's steps
+    and whether it converged.
+    """
+
+    axes: Array
+    iterations: int
+    converged: bool
+
+
+def diffuse_axes(
+    vectors: Any, *, mask: Any, weights: Any, accuracy: float = 5e-3, max_iterations: int = 200
+) -> DiffusedAxes:
+    """Directions over the N voxels of `mask` (L, R, C), from unit `vectors` (N, 3) that `weights` (N,) >= 0 hold.
+
+    Diffused as structure tensors (Chai et al. 2012, section 3.3.2), which know no forth and back, with their sense.
+
+    >>> ends = np.array([[0, -1, 0], [0, 0, 0], [0, -1, 0]])
+    >>> diffuse_axes(ends, mask=np.ones((1, 1, 3), bool), weights=[1, 0, 1]).axes[1].round(3).tolist()
+    [0.0, -1.0, 0.0]
+    """
+    marks = checked(mask, name="mask", dtype=np.bool_, shape=(None, None, None))
+    count = int(marks.sum())
+    try:
+        axes, iterations, converged = _core.fields_diffuse_axes(
+            marks,
+            checked(vectors, name="vectors", dtype=np.float64, shape=(count, 3)),
+            checked(weights, name="weights", dtype=np.float64, shape=(count,)),
+            float(accuracy),
+            int(max_iterations),
+        )
+    except ValueError as error:
+        raise InputError(str(error)) from error
+    return DiffusedAxes(axes, iterations, converged)
 
 
 @dataclass(frozen=True)

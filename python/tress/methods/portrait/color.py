@@ -65,19 +65,22 @@ def color_stage(
     pixels: NDArray[np.uint8],
     matte: Matte,
     label: NDArray[np.uint8],
+    on_skin: NDArray[np.bool_],
     xy_from_world: NDArray[np.float64],
     params: ColorParams,
     report: Report,
 ) -> ColoredHair:
     """Colours for the strands of `scene` (with the head, which hides hair) seen by the photo's camera (3, 4).
 
-    `label` (H, W): the layers, of which face and body may be before hair that the matte does not show.
+    `label` (H, W): the layers, of which face and body may be before hair that the matte does not show. `on_skin` (N,):
+    points of hidden hair on the head's skin, which stays opaque.
     """
     covered = np.isin(label, (BODY, FACE)) & (matte.alpha < _NO_HAIR)
     gbuffer = with_fitted_opacity(
         flat_scene(scene),
         matte_alpha=matte.alpha,
         covered=covered,
+        on_skin=on_skin,
         xy_from_world=xy_from_world,
         strand_bias_m=params.strand_bias,
         min_width_px=params.min_width_px,

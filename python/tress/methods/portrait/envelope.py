@@ -18,7 +18,9 @@ from scipy.ndimage import binary_dilation, gaussian_filter, maximum_filter
 
 from tress.kernel import fields, geom
 from tress.methods.portrait.box import Box, box_around
+from tress.methods.portrait.hanging import hanging_edge
 from tress.methods.portrait.resample_picture import columns_from_pixels
+from tress.methods.portrait.scalp_layer import Skin, scalp_thickness, skin_of_head
 
 Array = np.ndarray[Any, Any]
 
@@ -52,7 +54,7 @@ class Head(Protocol):
 @dataclass(frozen=True)
 class SolidHead:
     """The head in the box. `front`, `back` (R, C) metres, NaN beside it; `distance` (L, R, C) float32 metres to its
-    surface, negative inside; `hairline` (C,): z of the temples' hairline; `nape`: y of the lowest scalp.
+    surface, negative inside; `hairline` (C,): z of the temples' hairline; `nape`: y of the lowest scalp; `skin`.
     """
 
     front: Array
@@ -60,6 +62,7 @@ class SolidHead:
     distance: Array
     hairline: Array
     nape: float
+    skin: Skin
 
     @property
     def seen(self) -> Array:
@@ -70,7 +73,8 @@ class SolidHead:
 @dataclass(frozen=True)
 class Envelope:
     """Per column (R, C): `hair` and `extended` (hair, or hidden hair behind head and body) bool; `front`, `mid`,
-    `back` and `thickness` metres. `outline`: hair columns at the background.
+    `back` and `thickness` metres. `outline`: hair columns at the background; `bare`: those that show face or body.
+    Per voxel of the head's skin, `on_skin` (N,) metres of hair; per column (C,), `edge`: y where hidden hair ends.
     """
 
     box: Box
@@ -82,6 +86,9 @@ class Envelope:
     mid: Array
     back: Array
     thickness: Array
+    bare: Array
+    on_skin: Array
+    edge: Array
 
 
 def hair_envelope(hair: Array, solid: Array, *, head: Head, voxel: float) -> Envelope:
@@ -111,7 +118,12 @@ def solid_head(positions: Array, triangles: Array, scalp: Array, view_from_head:
     signed[close] = geom.signed_distances(positions, triangles=triangles, queries=box.centres(close)).distance
     bearing = positions[scalp > 0.5]
     return SolidHead(
-        depth.front, depth.back, signed, _hairline(bearing, view_from_head, box), float(bearing[:, 1].min())
+        depth.front,
+        depth.back,
+        signed,
+        _hairline(bearing, view_from_head, box),
+        float(bearing[:, 1].min()),
+        skin_of_head(inside, positions, scalp, box),
     )
 
 
@@ -126,7 +138,8 @@ def _hairline(scalp: Array, view_from_head: Array, box: Box) -> Array:
 def envelope(hair: Array, solid: Array, *, head: SolidHead, box: Box, xy_from_view: Array) -> Envelope:
     """From the hair's pixels (H, W) bool, and the pixels (H, W) bool of what may hide hair (face, body)."""
     hair_here = columns_from_pixels(hair, box, xy_from_view) > 0.5
-    hidden = (columns_from_pixels(solid, box, xy_from_view) > 0.5) | head.seen
+    bare = (columns_from_pixels(solid, box, xy_from_view) > 0.5) & ~hair_here
+    hidden = bare | head.seen
     background = ~(hair_here | hidden)
     reach = _support_distance(head, box)
     gap = reach.min(axis=0)
@@ -140,11 +153,23 @@ def envelope(hair: Array, solid: Array, *, head: SolidHead, box: Box, xy_from_vi
     nearest = np.minimum(box.z[reach.argmin(axis=0)], 0.0)
     front = _smooth(_with_curtain(shell, nearest, head, inner, hair_here, known, box), hair_here)
     front = np.fmax(front, head.front + 0.4 * RESTING)
-    extended = _extended(hair_here, hidden, head, box)
+    edge = hanging_edge(hair_here, nape=head.nape, middle=_middle(head, box), box=box)
+    extended = _extended(hair_here, hidden, head, edge, box)
     behind = np.maximum(np.maximum(_harmonic(gap + GRAZE, extended, outline), gap + GRAZE / 2), LEAST)
     back = _surface(reach, behind, box, from_front=False)
     mid = np.clip(_harmonic(nearest, extended, outline), back, np.where(hair_here, front, np.inf))
-    return Envelope(box, head, hair_here, extended, outline, front, mid, np.minimum(back, mid), behind)
+    on_skin = scalp_thickness(
+        head.skin, front=head.front, hair=hair_here, bare=bare, outline=outline, nearest=nearest, gap=gap, box=box
+    )
+    back = np.minimum(back, mid)
+    return Envelope(box, head, hair_here, extended, outline, front, mid, back, behind, bare, on_skin, edge)
+
+
+def _middle(head: SolidHead, box: Box) -> float:
+    """x of the middle of the neck at the nape."""
+    row = int(np.abs(box.y - head.nape).argmin())
+    seen = box.x[head.seen[row]]
+    return float(seen.mean()) if len(seen) else 0.0
 
 
 def _support_distance(head: SolidHead, box: Box) -> Array:
@@ -190,11 +215,14 @@ def _smooth(values: Array, mask: Array) -> Array:
     return np.where(mask, gaussian_filter(np.where(mask, values, 0.0), 1.5) / np.maximum(share, 1e-6), values)
 
 
-def _extended(hair: Array, hidden: Array, head: SolidHead, box: Box) -> Array:
-    """Hair, the head above the nape, and what hides the middle of hair that shows on both sides."""
-    left = np.logical_or.accumulate(hair, axis=1)
-    right = np.logical_or.accumulate(hair[:, ::-1], axis=1)[:, ::-1]
-    return hair | (head.seen & (box.y >= head.nape)[:, None]) | (left & right & hidden)
+def _extended(hair: Array, hidden: Array, head: SolidHead, edge: Array, box: Box) -> Array:
+    """Hair, the head above the nape, and above the `edge` (C,) what hides the middle of hair that hangs at a side."""
+    hanging = np.logical_and(hair, box.y[:, None] < head.nape)
+    left = np.logical_or.accumulate(hanging, axis=1)
+    right = np.logical_or.accumulate(hanging[:, ::-1], axis=1)[:, ::-1]
+    between = (left & right) | (head.seen & (left | right))
+    above = box.y[:, None] >= edge
+    return hair | (head.seen & (box.y >= head.nape)[:, None]) | (between & hidden & above)
 
 
 def _at_depth(distance: Array, z: Array, box: Box) -> Array:

@@ -5,11 +5,10 @@ ones start at every hair pixel that has no strand yet, follow the picture, and g
 and tip; the others start at random voxels until `count` strands are there or the voxels are full.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.ndimage import map_coordinates
 
 from tress.base.params import Params, param
 from tress.base.report import Report
@@ -23,6 +22,11 @@ Array = np.ndarray[Any, Any]
 DEEP_IN_HEAD = 0.001
 """Metres within the head from which a vertex counts as passing through it."""
 
+ON_SKIN = 0.004
+"""Metres from the head within which hidden hair lies on the skin."""
+MOST_CUT = 0.35
+"""Most of a hanging strand that is cut off so that tips differ."""
+
 
 @dataclass(frozen=True)
 class GrowParams(Params):
@@ -35,9 +39,10 @@ class GrowParams(Params):
     pixel_cap: int = param(8, low=1, high=1000, doc="Most visible strands in a pixel.")
     sheet_depth: float = param(0.0025, low=0.0, high=0.02, unit="m", doc="How far behind the surface the photo steers.")
     visible_step_px: float = param(1.25, low=0.25, high=10.0, unit="px", doc="Distance of vertices of visible strands.")
-    hidden_step: float = param(0.005, low=0.0005, high=0.02, unit="m", doc="Distance of vertices of hidden strands.")
+    hidden_step: float = param(0.007, low=0.0005, high=0.02, unit="m", doc="Distance of vertices of hidden strands.")
     longest: float = param(0.6, low=0.01, high=3.0, unit="m", doc="Longest way from a seed to root or tip.")
-    shortest: float = param(0.012, low=0.0, high=0.2, unit="m", doc="Shorter strands are dropped.")
+    shortest: float = param(0.006, low=0.0, high=0.2, unit="m", doc="Shorter strands are dropped.")
+    ragged: float = param(0.02, low=0.0, high=0.2, unit="m", doc="How much the tips of hanging hair differ, mostly.")
     clearance: float = param(0.001, low=0.0, high=0.01, unit="m", doc="Distance kept from the head.")
 
 
@@ -45,7 +50,7 @@ class GrowParams(Params):
 class GrownHair:
     """Strands in the view frame, root to tip: `points` (N, 3) float32 metres, `offsets` (S + 1,) int64, `color` (N,
     3) float32 linear, `alpha` (N,) float32 in [0, 1]. Per strand: `visible`, on the photograph's surface; `rooted`,
-    the root meets the head.
+    the root meets the head. Per point: `on_skin`, hidden and close to the head.
     """
 
     points: Array
@@ -54,6 +59,7 @@ class GrownHair:
     alpha: Array
     visible: Array
     rooted: Array
+    on_skin: Array
 
 
 def grow(
@@ -79,32 +85,52 @@ def grow(
         sheet=sheet,
         settings=_settings(params, step, params.pixel_cap, most),
     )
-    rest = params.count - (len(seen.offsets) - 1)
-    hidden = fields.trace(
-        _hidden_seeds(hair, 3 * rest, params, random),
-        field=field,
-        sheet=sheet,
-        settings=_settings(params, params.hidden_step, 0, rest),
-        density=seen.density,
-    )
+    hidden = _hidden(hair, field, sheet, seen, params, random)
     points = np.concatenate([seen.points, hidden.points]).astype(np.float32)
     offsets = np.concatenate([seen.offsets, hidden.offsets[1:] + len(seen.points)])
     visible = np.repeat([True, False], [len(seen.offsets) - 1, len(hidden.offsets) - 1])
+    distance = fields.sample(hair.head_distance, places=hair.box.cells(points))
     report.number("visible_strands", len(seen.offsets) - 1)
     report.number("hidden_strands", len(hidden.offsets) - 1)
     report.number("vertices", len(points))
-    report.number("strands_through_head", _through_head(points, offsets, hair))
+    through = np.searchsorted(offsets, np.flatnonzero(distance < -DEEP_IN_HEAD), side="right")
+    report.number("strands_through_head", len(np.unique(through)))
     color, opacity = strand_colors(points, offsets, visible, hair, foreground, alpha, matrix, random)
-    return GrownHair(points, offsets, color, opacity, visible, np.concatenate([seen.rooted, hidden.rooted]))
+    on_skin = np.repeat(~visible, np.diff(offsets)) & (distance < ON_SKIN)
+    return GrownHair(points, offsets, color, opacity, visible, np.concatenate([seen.rooted, hidden.rooted]), on_skin)
 
 
-def _through_head(points: Array, offsets: Array, hair: HairVolume) -> int:
-    """Number of strands with a vertex more than a millimetre within the head."""
-    place = hair.box.cells(points.astype(np.float64))[:, ::-1] - 0.5
-    nearest = np.clip(np.rint(place).astype(np.int64), 0, np.array(hair.inside.shape) - 1)
-    close = np.nonzero(hair.head_distance[tuple(nearest.T)] < hair.voxel)[0]
-    within = close[map_coordinates(hair.head_distance, place[close].T, order=1, mode="nearest") < -DEEP_IN_HEAD]
-    return len(np.unique(np.searchsorted(offsets, within, side="right")))
+def _hidden(
+    hair: HairVolume,
+    field: fields.VoxelField,
+    sheet: fields.FrontSheet,
+    seen: fields.Traced,
+    params: GrowParams,
+    random: np.random.Generator,
+) -> fields.Traced:
+    """Strands of the body of hair behind those `seen`, with tips of different lengths."""
+    rest = params.count - (len(seen.offsets) - 1)
+    longest = min(hair.length, params.longest)
+    found = fields.trace(
+        _hidden_seeds(hair, 3 * rest, longest, params, random),
+        field=field,
+        sheet=sheet,
+        settings=_settings(params, min(params.hidden_step, longest / 6), 0, rest),
+        density=seen.density,
+    )
+    return _ragged(found, hair.nape, params, random)
+
+
+def _ragged(found: fields.Traced, nape: float, params: GrowParams, random: np.random.Generator) -> fields.Traced:
+    """The strands, those that hang to the nape or lower cut short at random: most a little, few by much."""
+    count = np.diff(found.offsets)
+    step = params.hidden_step
+    hangs = found.points[found.offsets[1:] - 1, 1] < nape + params.ragged
+    cut = np.minimum(random.exponential(params.ragged, len(count)), MOST_CUT * step * count) / step
+    kept = np.where(hangs, np.maximum(count - np.rint(cut).astype(np.int64), np.minimum(count, 3)), count)
+    within = np.arange(len(found.points)) - np.repeat(found.offsets[:-1], count) < np.repeat(kept, count)
+    offsets = np.concatenate([[0], np.cumsum(kept)])
+    return replace(found, points=found.points[within], offsets=offsets)
 
 
 def _settings(params: GrowParams, step: float, pixel_cap: int, most: int) -> fields.TraceSettings:
@@ -133,8 +159,13 @@ def _visible_seeds(depth: Array, xy_from_view: Array, params: GrowParams, random
     return np.stack([x, y, z, ways, ways], axis=1)
 
 
-def _hidden_seeds(hair: HairVolume, count: int, params: GrowParams, random: np.random.Generator) -> Array:
-    """Random points of the volume behind the visible surface, denser in its front half."""
+def _hidden_seeds(
+    hair: HairVolume, count: int, longest: float, params: GrowParams, random: np.random.Generator
+) -> Array:
+    """Random points of the volume behind the visible surface, denser in its front half.
+
+    Strands from them are `longest` metres at most; short ones start anywhere along their length.
+    """
     z = hair.box.z[:, None, None]
     inside = hair.inside & (z < np.where(np.isfinite(hair.front), hair.front - params.sheet_depth, np.inf))
     centres = hair.box.centres(inside)
@@ -144,4 +175,7 @@ def _hidden_seeds(hair: HairVolume, count: int, params: GrowParams, random: np.r
         return np.zeros((0, 5))
     chosen = np.searchsorted(chance, random.uniform(0, chance[-1], count), side="right")
     points = centres[np.minimum(chosen, len(centres) - 1)] + hair.voxel * random.uniform(-0.5, 0.5, (count, 3))
-    return np.concatenate([points, np.full((count, 2), params.longest)], axis=1)
+    share = random.uniform(0, 1, count) if longest < params.longest else np.ones(count)
+    ahead = longest * np.maximum(share, 0.0)
+    back = longest - ahead if longest < params.longest else ahead
+    return np.concatenate([points, ahead[:, None], back[:, None]], axis=1)

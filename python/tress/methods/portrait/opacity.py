@@ -36,6 +36,7 @@ def with_fitted_opacity(
     *,
     matte_alpha: NDArray[np.float32],
     covered: NDArray[np.bool_],
+    on_skin: NDArray[np.bool_],
     xy_from_world: NDArray[np.float64],
     strand_bias_m: float,
     min_width_px: float,
@@ -44,12 +45,13 @@ def with_fitted_opacity(
     """What the photo's camera (3, 4) sees of the scene, in opacities that give the coverage `matte_alpha` (H, W).
 
     The new opacities (N,) are those of the GBuffer's scene. Hair behind the head, or in pixels `covered` (H, W) by face
-    or body, does not show, and keeps its own. Costs `rounds + 1` rasterisations.
+    or body, does not show, and keeps its own; so does hidden hair `on_skin` (N,), lest the skull show bald from the
+    side where it fills the outline. Costs `rounds + 1` rasterisations.
     """
     pixel = _pixels(flat, matte_alpha.shape, xy_from_world)
     wanted = matte_alpha.ravel()[pixel]
     solid = wanted > _SOLID
-    kept = solid | covered.ravel()[pixel]
+    kept = solid | covered.ravel()[pixel] | on_skin
     kept[~kept] = _behind_head(flat, np.flatnonzero(~kept), xy_from_world)
     own = np.where(solid, 1.0, flat.alpha)
     alpha = np.where(kept, own, 1 - (1 - np.minimum(wanted, _SOLID)) ** (1 / _LAYERS))

@@ -191,6 +191,7 @@ def run_color(work: Work, report: Report) -> ColoredHair:
         pixels=work.pixels,
         matte=work["matte"],
         label=work["layers"].label,
+        on_skin=work["strands"].on_skin,
         xy_from_world=camera.xy_from_world,
         params=work.params.color,
         report=report,

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy.ndimage import gaussian_filter
+from scipy.ndimage import binary_dilation, gaussian_filter
 
 from tress.base.params import Params, param
 from tress.base.report import Report
@@ -33,6 +33,16 @@ NECK = 0.05
 """Metres below the nape over which the neck is trusted."""
 
 
+BESIDE_HEAD = 2
+"""Columns beside the head into which hair on its skin may reach."""
+HANGING = 0.01
+"""Metres below the nape from which hair counts as long."""
+TRACED_SHARE = 1.5
+"""Length of short hair for the length of the strands that can be followed in the photo, nine in ten of them shorter."""
+SHORTEST = 0.012
+"""Metres that short hair is long at least."""
+
+
 @dataclass(frozen=True)
 class VolumeParams(Params):
     """Settings of the hair volume."""
@@ -46,6 +56,8 @@ class VolumeParams(Params):
     thickest: float = param(0.035, low=0.005, high=0.1, unit="m", doc="Deepest hair that is filled.")
     seen_alpha: float = param(0.3, low=0.0, high=1.0, doc="Pixels with more hair than this get visible strands.")
     flow: FlowParams = field(default_factory=FlowParams)
+    longest: float = param(0.6, low=0.01, high=3.0, unit="m", doc="Longest hair.")
+    steepest: float = param(0.5, low=0.0, high=1.0, doc="Greatest slope by which short hair rises.")
     thinnest: float = param(0.010, low=0.002, high=0.05, unit="m", doc="Hair that is filled where the layer is thin.")
 
 
@@ -56,7 +68,8 @@ class HairVolume:
     Per column (R, C) float32 metres, NaN beside the hair: `front`, `mid`, `back`. Per voxel (L, R, C): `inside` bool;
     `direction` (…, 3) float32 unit, root to tip, zero outside; `head_distance` float32 metres, negative in the head.
     `origin` (3,) and `voxel` metres as in `Box`. Per pixel: `sheet` (H, W) float32, depth of the visible surface,
-    NaN beside the hair, and `flow`, the direction in the picture.
+    NaN beside the hair, and `flow`, the direction in the picture. `length`: of the hidden hair, metres; `nape`: y of
+    the scalp's lower end.
     """
 
     origin: Array
@@ -69,6 +82,8 @@ class HairVolume:
     head_distance: Array
     sheet: Array
     flow: HairFlow
+    length: float
+    nape: float
 
     @property
     def box(self) -> Box:
@@ -95,26 +110,36 @@ def volume(
     flow = hair_flow(brightness, hair=hair, crown_px=_crown(head), px_per_metre=matrix[0, 0], params=params.flow)
     front = _front(depths, traced, matrix)
     inside, depth_m = _filled(surface, front, params)
-    layer, normal = _layers(depth_m, solid.distance)
+    layer, normal = _layers(depth_m, solid.distance, inside)
     flat, trust = _column_directions(flow, surface, matrix)
-    tensors, senses, weights = _data(inside, front, flat, trust, normal, surface, params)
-    found = fields.diffuse(
-        np.concatenate([tensors, senses], axis=-1), mask=inside, weights=weights, accuracy=5e-3, max_iterations=200
-    )
-    axes = fields.principal_axes(found.values[inside][:, :6], hints=found.values[inside][:, 6:])
+    vectors, weights = _data(inside, front, flat, trust, normal, surface, params)
+    found = fields.diffuse_axes(vectors, mask=inside, weights=weights)
     out = np.zeros((*box.shape, 3), np.float32)
-    out[inside] = _laid(axes, layer[inside], normal[inside], solid.distance[inside], params)
+    length = _length(traced, surface, matrix[0, 0], params)
+    rise = np.clip(float(np.median(surface.on_skin[surface.on_skin > 0])) / length, params.rise, params.steepest)
+    out[inside] = _laid(found.axes, layer, normal, solid.distance[inside], rise, params)
     report.number("voxels", int(inside.sum()))
     report.number("diffusion_steps", found.iterations)
     report.number("diffusion_converged", found.converged)
-    seen = surface.extended
-    front_map, mid, back = (
-        np.where(where, values, np.nan).astype(np.float32)
-        for where, values in ((surface.hair, front), (seen, surface.mid), (seen, surface.back))
-    )
+    front_map, mid, back = _surfaces(surface, front, inside)
     sheet = pixels_from_columns(spread(front, surface.hair), box, matrix, shape=alpha.shape)
     sheet[~hair] = np.nan
-    return HairVolume(box.origin, box.size, front_map, mid, back, inside, out, solid.distance, sheet, flow)
+    return HairVolume(
+        box.origin, box.size, front_map, mid, back, inside, out, solid.distance, sheet, flow, length, solid.nape
+    )
+
+
+def _length(traced: Traced, surface: Envelope, px_per_metre: float, params: VolumeParams) -> float:
+    """Metres: how long hidden hair is. Hair that hangs below the nape ends at its edge; shorter hair is as long as
+    that which is seen.
+    """
+    if (surface.edge < surface.head.nape - HANGING).any() or len(traced.offsets) < 2:
+        return params.longest
+    steps = np.linalg.norm(np.diff(np.asarray(traced.points, np.float64), axis=0), axis=1)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    ends = np.asarray(traced.offsets)
+    lengths = along[ends[1:] - 1] - along[ends[:-1]]
+    return float(np.clip(TRACED_SHARE * np.percentile(lengths, 90) / px_per_metre, SHORTEST, params.longest))
 
 
 def _crown(head: Head) -> Array:
@@ -140,17 +165,54 @@ def _front(depths: StrandDepths, traced: Traced, xy_from_view: Array) -> Array:
     return surface.front + moved.values
 
 
+def _surfaces(surface: Envelope, front: Array, inside: Array) -> tuple[Array, Array, Array]:
+    """Front, middle and back (R, C) float32 metres of the voxels of hair; NaN where there are none."""
+    any_hair = inside.any(axis=0)
+    back = np.where(any_hair, surface.box.z[inside.argmax(axis=0)] - 0.5 * surface.box.size, np.nan)
+    mid = np.fmax(np.where(any_hair, surface.mid, np.nan), back)
+    shown = np.where(surface.hair, np.fmax(front, mid), np.nan)
+    return shown.astype(np.float32), mid.astype(np.float32), back.astype(np.float32)
+
+
 def _filled(surface: Envelope, front: Array, params: VolumeParams) -> tuple[Array, Array]:
     """Voxels of hair, and metres from the outer surface inwards."""
     box, head = surface.box, surface.head
     z = box.z[:, None, None]
-    behind_head = _behind_head(head, box)
-    top = np.where(surface.hair, front, behind_head)
-    between = (z >= surface.back) & (z <= top + 0.5 * box.size) & surface.extended
-    body = between | (head.distance <= 0)
+    shown = surface.hair & (z <= front + 0.5 * box.size)
+    behind = z <= _behind_head(head, box)
+    long = surface.extended & _hangs(surface)
+    between = (z >= surface.back) & (
+        (shown & ((z >= surface.mid) | ~head.seen)) | (long & behind & (shown | ~surface.hair))
+    )
+    layer = _on_scalp(surface) & np.where(surface.bare, behind, shown | ~surface.hair)
+    body = between | layer | (head.distance <= 0)
     depth_m = fields.distance(~body) * np.float32(box.size)
     reach = np.clip(surface.thickness, params.thinnest, params.thickest)
-    return between & (head.distance > 0.3 * box.size) & (depth_m <= reach + box.size), depth_m
+    outside = head.distance > 0.3 * box.size
+    return layer | (outside & between & (depth_m <= reach + box.size)), depth_m
+
+
+def _on_scalp(surface: Envelope) -> Array:
+    """(L, R, C) bool: voxels in the layer of hair on the head's skin.
+
+    Where the skull fills the outline, or sticks out of it, one voxel's layer clings to it.
+    """
+    skin = surface.head.skin
+    thickness = surface.on_skin.astype(np.float32)[skin.nearest]
+    near_head = binary_dilation(surface.head.seen, iterations=BESIDE_HEAD)
+    reach = np.where(surface.hair | surface.head.seen, thickness, np.minimum(thickness, surface.box.size))
+    within = np.abs(surface.head.distance) <= 0.5 * surface.box.size
+    return (
+        (thickness > 0)
+        & (within | ((surface.head.distance > 0) & (surface.head.distance <= reach)))
+        & (surface.hair | near_head)
+    )
+
+
+def _hangs(surface: Envelope) -> Array:
+    """(R, C) bool: where hidden hair may be that does not lie on the scalp, since it is long and falls."""
+    low = surface.edge < surface.head.nape - HANGING
+    return low & (surface.box.y[:, None] >= surface.edge)
 
 
 def _behind_head(head: SolidHead, box: Box) -> Array:
@@ -164,14 +226,25 @@ def _behind_head(head: SolidHead, box: Box) -> Array:
     return np.where(above, head.back, behind)
 
 
-def _layers(depth_m: Array, head_distance: Array) -> tuple[Array, Array]:
-    """(L, R, C): 0 at the scalp, 1 at the surface; and the unit normal outwards (L, R, C, 3), zero where unclear."""
+def _layers(depth_m: Array, head_distance: Array, inside: Array) -> tuple[Array, Array]:
+    """Of the N voxels `inside`: (N,) 0 at the scalp, 1 at the surface; and the unit normal outwards (N, 3), zero where
+    unclear.
+    """
     skin = np.maximum(head_distance, 0)
     layer = gaussian_filter(skin / np.maximum(skin + depth_m, 1e-6), 1.0)
-    towards, down, right = (np.gradient(layer, axis=k) for k in range(3))
+    towards, down, right = (_slope(layer, inside, axis) for axis in range(3))
     slope = np.stack([right, -down, towards], axis=-1)
     length = np.linalg.norm(slope, axis=-1, keepdims=True)
-    return layer, np.where(length > 1e-4, slope / np.maximum(length, 1e-9), 0.0)
+    return layer[inside], np.where(length > 1e-4, slope / np.maximum(length, 1e-9), 0.0)
+
+
+def _slope(values: Array, inside: Array, axis: int) -> Array:
+    """(N,): central difference along an axis, in voxels, at the N voxels `inside`."""
+    place = list(np.nonzero(inside))
+    last = values.shape[axis] - 1
+    before, after = np.maximum(place[axis] - 1, 0), np.minimum(place[axis] + 1, last)
+    low, high = (values[tuple(place[:axis] + [at] + place[axis + 1 :])] for at in (before, after))
+    return (high - low) / np.maximum(after - before, 1)
 
 
 def _column_directions(flow: HairFlow, surface: Envelope, xy_from_view: Array) -> tuple[Array, Array]:
@@ -194,30 +267,30 @@ def _column_directions(flow: HairFlow, surface: Envelope, xy_from_view: Array) -
 
 def _data(
     inside: Array, front: Array, flat: Array, trust: Array, normal: Array, surface: Envelope, params: VolumeParams
-) -> tuple[Array, Array, Array]:
-    """Tensors (…, 6), senses (…, 3) and weights (L, R, C) of what is seen and of falling."""
+) -> tuple[Array, Array]:
+    """Directions (N, 3) and weights (N,) of what is seen and of falling, at the N voxels `inside`."""
     box = surface.box
     gravity = np.array([0.0, -1.0, 0.0])
-    falling = gravity - (normal @ gravity)[..., None] * normal
-    weights = params.gravity_weight * np.linalg.norm(falling, axis=-1) * inside
-    vectors = falling / np.maximum(np.linalg.norm(falling, axis=-1, keepdims=True), 1e-9)
+    falling = gravity - (normal @ gravity)[:, None] * normal
+    length = np.linalg.norm(falling, axis=-1)
+    weights = params.gravity_weight * length
+    vectors = falling / np.maximum(length, 1e-9)[:, None]
     row_slope, column_slope = np.gradient(np.where(surface.hair, front, np.nan), box.size)
     rise = np.nan_to_num(column_slope) * flat[..., 0] - np.nan_to_num(row_slope) * flat[..., 1]
     seen = np.concatenate([flat, np.clip(rise, -3, 3)[..., None]], axis=-1)
     seen /= np.linalg.norm(seen, axis=-1, keepdims=True)
-    near = inside & (np.abs(box.z[:, None, None] - (front - 0.5 * box.size)) <= 1.1 * box.size) & surface.hair
-    layer, row, column = np.nonzero(near)
-    vectors[layer, row, column] = seen[row, column]
-    weights[layer, row, column] = params.picture_weight * trust[row, column] + 1e-3
-    x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
-    return np.stack([x * x, y * y, z * z, x * y, x * z, y * z], axis=-1), vectors, weights
+    layer, row, column = np.nonzero(inside)
+    near = (np.abs(box.z[layer] - (front[row, column] - 0.5 * box.size)) <= 1.1 * box.size) & surface.hair[row, column]
+    vectors[near] = seen[row[near], column[near]]
+    weights[near] = params.picture_weight * trust[row[near], column[near]] + 1e-3
+    return vectors, weights
 
 
-def _laid(axes: Array, layer: Array, normal: Array, head_distance: Array, params: VolumeParams) -> Array:
+def _laid(axes: Array, layer: Array, normal: Array, head_distance: Array, rise: float, params: VolumeParams) -> Array:
     """Axes (N, 3) turned into the layers, rising where the scalp is near; unit."""
     along = (axes * normal).sum(axis=-1, keepdims=True)
     laid = axes - params.layer_share * along * normal
     close = np.clip(1.5 - head_distance / 0.03, 0, 1)
     laid = laid / np.maximum(np.linalg.norm(laid, axis=-1, keepdims=True), 1e-9)
-    laid = laid + (params.rise * close * (1 - layer))[:, None] * normal
+    laid = laid + (rise * close * (1 - layer))[:, None] * normal
     return laid / np.maximum(np.linalg.norm(laid, axis=-1, keepdims=True), 1e-9)

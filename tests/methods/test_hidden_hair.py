@@ -1,0 +1,105 @@
+"""Laws of the hair that the photograph does not show, on a ball whose upper half is scalp."""
+
+import numpy as np
+import pytest
+from methods.small_head import (
+    RADIUS,
+    SCALE,
+    SIZE,
+    ball,
+    long_alpha,
+    small_depths,
+    small_hair,
+    small_volume,
+    solid_pixels,
+)
+from scipy.spatial import KDTree
+
+from tress.base.report import Report
+from tress.methods.portrait.box import Box
+from tress.methods.portrait.hanging import hanging_edge
+
+SCALP_END = 0.02
+
+
+@pytest.fixture(scope="module")
+def short():
+    return small_hair(small_volume(), Report())
+
+
+@pytest.fixture(scope="module")
+def long():
+    alpha = long_alpha()
+    return small_hair(small_volume(alpha), Report(), alpha=alpha)
+
+
+def shown_as_skin() -> np.ndarray:
+    """(V,) bool: scalp of the ball that faces the camera where the photo shows skin."""
+    points = ball().positions_in_view
+    column, row = (points[:, :2] * [SCALE, -SCALE] + SIZE / 2).astype(int).T
+    return (points[:, 2] > 0) & solid_pixels()[np.clip(row, 0, SIZE - 1), np.clip(column, 0, SIZE - 1)]
+
+
+def test_scalp_that_does_not_show_bare_has_hair(short):
+    head = ball()
+    scalp = head.positions_in_view[(head.masks["scalp"] > 0.5) & ~shown_as_skin()]
+    assert np.percentile(KDTree(short.points).query(scalp)[0], 97) < 0.006
+
+
+def test_skin_that_shows_stays_bare(short):
+    head = ball()
+    well_within = shown_as_skin() & (head.positions_in_view[:, 2] > 0.04) & (head.positions_in_view[:, 1] < 0.025)
+    assert KDTree(short.points).query(head.positions_in_view[well_within])[0].min() > 0.003
+
+
+def test_short_hair_stays_short_behind(short):
+    behind = short.points[short.points[:, 2] < 0]
+    assert behind[:, 1].min() > SCALP_END - 0.015
+    assert np.linalg.norm(behind, axis=1).max() < RADIUS + 0.02
+
+
+def test_short_hair_thins_out_towards_the_nape(short):
+    behind = short.points[short.points[:, 2] < -0.05]
+    above = np.linalg.norm(behind, axis=1) - RADIUS
+    assert np.percentile(above[behind[:, 1] < SCALP_END + 0.01], 95) < 0.6 * np.percentile(
+        above[behind[:, 1] > SCALP_END + 0.04], 95
+    )
+
+
+def test_long_hair_hangs_as_low_behind_as_at_the_sides(long):
+    behind = long.points[~np.repeat(long.visible, np.diff(long.offsets)) & (long.points[:, 2] < -0.05)]
+    assert behind[:, 1].min() == pytest.approx(-0.15, abs=0.025)
+
+
+def test_long_hair_does_not_end_in_a_straight_cut(long):
+    tips = long.points[long.offsets[1:] - 1]
+    behind = tips[~long.visible & (tips[:, 2] < 0) & (tips[:, 1] < -0.05), 1]
+    assert len(behind) > 100
+    assert np.subtract(*np.percentile(behind, [90, 10])) > 0.02
+
+
+def box() -> Box:
+    return Box(np.array([-0.15, 0.15, -0.15]), 0.003, 100, 100, 100)
+
+
+def test_the_edge_goes_from_the_one_side_to_the_other():
+    b = box()
+    x, y = np.meshgrid(b.x, b.y)
+    hair = (np.abs(x) > 0.08) & (y > np.where(x < 0, -0.05, -0.11))
+    edge = hanging_edge(hair, nape=0.0, middle=0.0, box=b)
+    assert edge[0] == pytest.approx(-0.05, abs=b.size)
+    assert edge[-1] == pytest.approx(-0.11, abs=b.size)
+    assert (np.diff(edge) <= 1e-9).all()
+
+
+def test_what_lies_below_a_break_is_no_hanging_hair():
+    b = box()
+    x, y = np.meshgrid(b.x, b.y)
+    hair = (np.abs(x) > 0.08) & ((y > 0.02) | (y < -0.08))
+    assert hanging_edge(hair, nape=0.0, middle=0.0, box=b).min() > 0.0
+
+
+def test_depths_know_what_the_photo_shows_as_skin():
+    envelope = small_depths().envelope
+    assert envelope.bare[np.abs(envelope.box.y).argmin(), np.abs(envelope.box.x).argmin()]
+    assert not (envelope.bare & envelope.hair).any()
