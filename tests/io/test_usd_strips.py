@@ -7,12 +7,12 @@ from pxr import Gf, Usd, UsdGeom, UsdShade
 from tress.base.errors import FormatError
 from tress.io.formats.usd import open_document, save_document
 from tress.io.formats.usd_checks import document_errors
+from tress.kernel.curves import uniform_knots
 from tress.model.atlas import Atlas
 from tress.model.attachment import Attachment
 from tress.model.document import Document
 from tress.model.group import Group
 from tress.model.keyframes import Keyframes
-from tress.model.knots import clamped_knots
 from tress.model.mesh import Mesh
 from tress.model.strip import Strip
 from tress.model.strip_mesh import strips_mesh
@@ -25,7 +25,7 @@ ROOT = Attachment(surface="ground", triangle=0, barycentric=[0.5, 0.25, 0.25], o
 
 def strip(**changes):
     net = {"points": RANDOM.normal(size=(5, 4, 3)), "weights": RANDOM.uniform(0.5, 2, (5, 4))}
-    return Strip(**net | {"knots_u": clamped_knots(5, degree=3), "knots_v": clamped_knots(4, degree=2)} | changes)
+    return Strip(**net | {"knots_u": uniform_knots(5, degree=3), "knots_v": uniform_knots(4, degree=2)} | changes)
 
 
 def hairdo():

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from tress.base.errors import InputError
+from tress.kernel.curves import reversed_knots, uniform_knots
 from tress.model.atlas import Atlas
 from tress.model.attachment import Attachment
 from tress.model.document import Document
@@ -17,7 +18,6 @@ from tress.model.evaluate import evaluate
 from tress.model.group import Group
 from tress.model.head import Head
 from tress.model.keyframes import Keyframes
-from tress.model.knots import clamped_knots, reversed_knots
 from tress.model.mesh import Mesh
 from tress.model.strip import Strip
 from tress.model.strip_grid import strip_grid
@@ -35,7 +35,7 @@ TETRAHEDRON = Mesh(
 
 
 def strip(**changes):
-    knots = {"knots_u": clamped_knots(5, degree=3), "knots_v": clamped_knots(4, degree=2)}
+    knots = {"knots_u": uniform_knots(5, degree=3), "knots_v": uniform_knots(4, degree=2)}
     return Strip(**{"points": NET, "weights": np.ones((5, 4)), **knots} | changes)
 
 
@@ -147,7 +147,7 @@ def test_reversed_knots_belong_to_the_reversed_net():
     back = strip(
         points=patch.points[::-1],
         weights=patch.weights[::-1],
-        knots_u=reversed_knots(patch.knots_u),
+        knots_u=reversed_knots(patch.knots_u, 0.4, 1),
         knots_v=patch.knots_v,
     )
     grids = [strip_grid([item], pieces=(2, 2)) for item in (patch, back)]
@@ -230,8 +230,8 @@ def test_the_root_lies_on_the_upper_edge_of_its_region():
     assert uv[..., 0] == pytest.approx(0.5 + 0.5 * fraction[..., 1])
     assert mesh.texture.pixels.shape == (2, 2, 4)
     mixed = {"atlas": atlas, "g": Group(), "a": strip(group="g"), "b": strip(group="g", atlas="atlas")}
-    with pytest.raises(InputError, match=r"several atlases \(none, atlas\)"):
-        evaluate(Document(mixed))
+    with pytest.raises(InputError, match=r"'g' are covered with several atlases \(none, atlas\)"):
+        Document(mixed)
 
 
 def test_positions_replace_displacements_add_and_groups_move_all_within():

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 class Group(Record):
     """Strips that are shown as one mesh, and hidden, locked and moved together; `parent` is a group or "".
 
-    The strips name their group, not the group its strips. What is hidden or locked holds for all within.
+    The strips name their group, not the group its strips. What is hidden or locked holds for all within. The strips
+    directly in a group are covered with one atlas, as one mesh is.
     """
 
     parent: str = ""
@@ -23,7 +24,13 @@ class Group(Record):
     locked: bool = False
 
     def check_in(self, document: "Document", *, name: str) -> None:
-        """The parent is a group, and no group lies within itself."""
+        """The parent is a group, no group lies within itself, and there is one atlas."""
+        from tress.model.strips import strips_in  # it reads strips, which know their group
+
+        atlases = sorted({strip.atlas for strip in strips_in(document, name).values()})
+        if len(atlases) > 1:
+            listed = ", ".join(atlas or "none" for atlas in atlases)
+            raise InputError(f"Strips of the group {name!r} are covered with several atlases ({listed}); use one.")
         seen, group = {name}, self.parent
         while group:
             record = document.records.get(group)

@@ -29,21 +29,6 @@ def domain_of(knots: Array, *, count: int) -> tuple[float, float]:
     return float(knots[degree_of(knots, count=count)]), float(knots[count])
 
 
-def clamped_knots(count: int, *, degree: int) -> Array:
-    """Even knots over [0, 1] that begin and end at the outer control points: (count + degree + 1,) float64.
-
-    >>> clamped_knots(5, degree=3).tolist()
-    [0.0, 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0, 1.0]
-    """
-    inner = np.linspace(0, 1, count - degree + 1)
-    return np.concatenate([np.zeros(degree), inner, np.ones(degree)])
-
-
-def reversed_knots(knots: Array) -> Array:
-    """The knots of the same surface with the control points in reverse, over the same domain."""
-    return (knots[0] + knots[-1]) - knots[::-1]
-
-
 def check_knots(knots: Array, *, count: int, where: str) -> None:
     """Raises `InputError` in one sentence where `knots` is no knot vector of degree 1 to 7 over `count` points."""
     degree = degree_of(knots, count=count)

@@ -30,7 +30,7 @@ def strips_mesh(
     """
     strips = strip_set(document, names)
     grid = strip_grid(strips.records, pieces=pieces)
-    atlas = common_atlas(document, strips.records)
+    atlas = _common_atlas(document, strips.records)
     return Mesh(
         positions=grid.points(posed_points(strips, time)),
         triangles=grid.triangles,
@@ -40,19 +40,17 @@ def strips_mesh(
     )
 
 
-def common_atlas(document: Document, strips: Sequence[Strip]) -> Atlas | None:
-    """The atlas of the strips, or None. Raises `InputError` where they have several."""
-    names = sorted({strip.atlas for strip in strips})
-    if len(names) > 1:
-        listed = ", ".join(name or "none" for name in names)
-        raise InputError(f"Strips of one group are covered with several atlases ({listed}); one was expected.")
-    atlas = document.records.get(names[0]) if names else None
-    return atlas if isinstance(atlas, Atlas) else None
-
-
 def texture_coordinates(grid: StripGrid, strips: Sequence[Strip], *, atlas: Atlas | None) -> Array:
     """(Q, 2) float32 texture coordinates of the grid's points: the root at the upper edge of the strip's region."""
     regions = np.array([WHOLE_PICTURE if atlas is None else atlas.regions[strip.region] for strip in strips])
     low, high = np.split(regions.reshape(-1, 4)[grid.strip], 2, axis=1)
     share = np.stack([grid.fraction[:, 1], 1 - grid.fraction[:, 0]], axis=1)
     return (low * (1 - share) + high * share).astype(np.float32)
+
+
+def _common_atlas(document: Document, strips: Sequence[Strip]) -> Atlas | None:
+    names = sorted({strip.atlas for strip in strips})
+    if len(names) > 1:
+        raise InputError(f"One mesh has one atlas; {', '.join(name or 'none' for name in names)} were found.")
+    atlas = document.records.get(names[0]) if names else None
+    return atlas if isinstance(atlas, Atlas) else None

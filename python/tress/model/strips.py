@@ -29,11 +29,16 @@ def strip_names(document: Document, names: Iterable[str]) -> list[str]:
     return sorted(wanted)
 
 
+def strips_in(document: Document, group: str) -> dict[str, Strip]:
+    """The strips directly in `group`, or in none for ""."""
+    return {name: strip for name, strip in document.of_type(Strip).items() if strip.group == group}
+
+
 def visible_strips(document: Document, *, group: str = "") -> list[str]:
     """The strips directly in `group` (or in none) that are not hidden; empty where the group is."""
     if any(_group(document, name).hidden for name in lineage(document, group)):
         return []
-    return [name for name, strip in document.of_type(Strip).items() if strip.group == group and not strip.hidden]
+    return [name for name, strip in strips_in(document, group).items() if not strip.hidden]
 
 
 def locked_by(document: Document, name: str) -> str:
