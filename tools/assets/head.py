@@ -38,7 +38,7 @@ def write_head(*, cache: Path, data: Path) -> dict[str, str]:
     source = read_makehuman(cache=cache)
     cut = cut_head(source.mesh)
     masks = regions(source, cut)
-    triangles, corner_uv = triangulated(cut.quads, atlas(source, cut, face=masks["face"]))
+    triangles, corner_uv = triangulated(cut.quads, atlas(source, cut, masks=masks))
     names, expressions = _expressions(source, cut)
     shape = _shape_model(source, cut, triangles, masks["neck"], masks["inside"])
     places = _places(cut, shape, expressions, triangles, masks)

@@ -3,8 +3,11 @@ enlarged.
 
 In MakeHuman's layout the face takes a hundredth of the square. Here the head's chart is laid on its side over the
 whole width and widened around the face by a radial map r -> r (1 + gain exp(-(r/reach)^2)), which stays one to one for
-gains below about 2.2; the other charts are set on shelves below it.
+gains below about 2.2; the other charts are set on shelves below it, the eyeballs and the mouth enlarged, for they are
+what a portrait shows best.
 """
+
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,16 +20,28 @@ MARGIN = 0.006
 FACE_GAIN = 1.4
 FACE_REACH = 0.22
 """Of the head chart's width."""
+EYE_GAIN = 8.0
+"""Brings an iris from 5 to 40 texels of 1,024."""
+MOUTH_GAIN = 1.6
 
 
-def atlas(source: MakeHuman, cut: HeadCut, *, face: NDArray[np.float32]) -> NDArray[np.float64]:
-    """The uv of every corner (Q, 4, 2) in [0, 1], v up; `face` (V,) marks the vertices to enlarge."""
+def atlas(source: MakeHuman, cut: HeadCut, *, masks: Mapping[str, NDArray[np.float32]]) -> NDArray[np.float64]:
+    """The uv of every corner (Q, 4, 2) in [0, 1], v up; `masks` (V,) by name: face, eyes and inside are enlarged."""
     uv = source.mesh.uv[cut.corner_uv]
     chart = charts(source, cut)
     turned = np.stack([uv[..., 1], -uv[..., 0]], axis=-1)
     head = chart == 0
-    uv = np.where(head[:, None, None], _face_enlarged(turned, turned[head], face[cut.quads][head]), uv)
-    return _packed(uv, chart)
+    uv = np.where(head[:, None, None], _face_enlarged(turned, turned[head], masks["face"][cut.quads][head]), uv)
+    gain = np.array([_gain(cut, chart == k, masks) for k in range(chart.max() + 1)])
+    return _packed(uv * gain[chart][:, None, None], chart)
+
+
+def _gain(cut: HeadCut, faces: NDArray[np.bool_], masks: Mapping[str, NDArray[np.float32]]) -> float:
+    vertices = cut.quads[faces].ravel()
+    if (vertices >= cut.skin_count).all():
+        return EYE_GAIN
+    mouth = masks["inside"][vertices].mean() > 0.5 and masks["eyes"][vertices].mean() < 0.5
+    return MOUTH_GAIN if mouth else 1.0
 
 
 def _face_enlarged(

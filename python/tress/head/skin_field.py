@@ -10,8 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array, csc_array, diags_array
-from scipy.sparse.linalg import splu
+from scipy.sparse import coo_array, csr_array, diags_array
 
 from tress.head.statistical import StatisticalHead
 
@@ -19,6 +18,9 @@ FAR_M = 0.05
 """Distance over which what is known gives way to the far colour."""
 NEAR_M = 0.004
 """Distance within which the field follows what is known surely."""
+ACCURACY = 1e-4
+MAX_ROUNDS = 500
+TINY = 1e-300
 LEAST_COTANGENT = 0.02
 """Edges of obtuse triangles count at least so much, which keeps the colours within the range of what is known."""
 
@@ -29,17 +31,45 @@ def skin_field(
     """Colours (V, 3) at the vertices of `head`, near `known` (V, 3) where `trust` (V,) in [0, 1] is high, and `far`
     (3,) away from it.
 
-    Every channel stays between the least and the greatest of `known` and `far`. About 25 ms.
+    Every channel stays between the least and the greatest of `known` and `far`, within 0.002. About 15 ms.
     """
-    laplacian, area = _surface(head)
+    laplacian, area = surface(head)
     hold, screen = area * trust / NEAR_M**2, area / FAR_M**2
-    values = hold[:, None] * known + screen[:, None] * far
-    factors = splu(csc_array(laplacian + diags_array(hold + screen)), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0)
-    return factors.solve(np.asarray(values, np.float64)).astype(np.float32)
+    away = np.asarray(known - far, np.float64)
+    matrix = csr_array(laplacian + diags_array(hold + screen))
+    return (far + _conjugate_gradients(matrix, hold[:, None] * away)).astype(np.float32)
+
+
+def _conjugate_gradients(matrix: csr_array, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Solves the definite `matrix` (V, V) for the columns of `values` (V, C) at once, to ACCURACY of their size.
+
+    Jacobi's preconditioner; some 60 rounds. A direct solver would fill in the matrix twenty-fold.
+    """
+    inverse = 1 / matrix.diagonal()[:, None]
+    solution = np.zeros_like(values)
+    residual = values.copy()
+    goal = ACCURACY**2 * _product(values * inverse, values)
+    step = residual * inverse
+    size = _product(step, residual)
+    for _ in range(MAX_ROUNDS):
+        if (size <= goal).all():
+            break
+        pushed = matrix @ step
+        length = size / np.maximum(_product(step, pushed), TINY)
+        solution += length * step
+        residual -= length * pushed
+        before, size = size, _product(residual * inverse, residual)
+        step = residual * inverse + size / np.maximum(before, TINY) * step
+    return solution
+
+
+def _product(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Column by column, with the same bits for any number of threads."""
+    return (a * b).sum(axis=0)
 
 
 @lru_cache(maxsize=2)
-def _surface(head: StatisticalHead) -> tuple[csc_array, NDArray[np.float64]]:
+def surface(head: StatisticalHead) -> tuple[csr_array, NDArray[np.float64]]:
     """The cotangent Laplacian (V, V) of the mean head, positive semi-definite, and the area (V,) m² of each vertex."""
     corners = head.mean[head.triangles]
     count = len(head.mean)
@@ -54,6 +84,6 @@ def _surface(head: StatisticalHead) -> tuple[csc_array, NDArray[np.float64]]:
     doubled = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     area = np.bincount(head.triangles.ravel(), weights=np.repeat(doubled / 6, 3), minlength=count)
     row, column, weight = (np.concatenate(part) for part in (rows, columns, weights))
-    edges = coo_array((weight, (row, column)), shape=(count, count)).tocsc()
+    edges = coo_array((weight, (row, column)), shape=(count, count)).tocsr()
     edges = edges + edges.T
-    return csc_array(diags_array(np.asarray(edges.sum(axis=0)).ravel()) - edges), np.maximum(area, 1e-12)
+    return csr_array(diags_array(np.asarray(edges.sum(axis=0)).ravel()) - edges), np.maximum(area, 1e-12)

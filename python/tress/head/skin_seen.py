@@ -40,7 +40,8 @@ class SkinSeen:
 
     def cells(self, xy: NDArray[np.floating]) -> NDArray[np.float32]:
         """Points (N, 2) px as columns and rows of cells (N, 2), counted from the first cell's middle."""
-        return ((xy - self.corner) / self.step - 0.5).astype(np.float32)
+        corner, step = self.corner.astype(np.float32), self.step.astype(np.float32)
+        return (np.asarray(xy, np.float32) - corner) / step - np.float32(0.5)
 
 
 @dataclass(frozen=True)

@@ -67,15 +67,11 @@ def head_texture(
     gain = np.clip(field / np.maximum(field[head.mirror], 1e-3), 1 / GREATEST_GAIN, GREATEST_GAIN)
     likely = _remapped(skin_at.bare * skin_at.likely, skin_at.cells(xy))
     place = np.column_stack([xy, seen, face_places(head).any_color(likely, seen=seen)])
-    own, own_weight = _photographed(image, skin_at, place, layout)
-    other, other_weight = _photographed(image, skin_at, place[head.mirror], layout)
-    other *= layout.at(gain)
-    other_weight *= np.clip(1 - own_weight / np.float32(ENOUGH), 0, 1)
-    total = own_weight + other_weight
-    below = layout.at(_tinted(field, head, scalp_color))
-    top = (own * own_weight[:, None] + other * other_weight[:, None]) / np.maximum(total, 1e-6)[:, None]
-    color = below + np.minimum(total, 1)[:, None] * (top - below)
-    return np.clip(np.rint(color * 255), 0, 255).astype(np.uint8)[layout.nearest]
+    own = _photographed(image, skin_at, layout.at(place))
+    other = _photographed(image, skin_at, layout.at(place[head.mirror]), before=own)
+    sheet = layout.at(_tinted(field, head, scalp_color))
+    _paint(sheet, own, other, gain=layout.at(gain)[other.texel])
+    return _bytes(sheet)[layout.nearest]
 
 
 @dataclass(frozen=True)
@@ -150,20 +146,51 @@ def _mixed(field: NDArray[np.float32], color: NDArray[np.float32], amount: NDArr
     return np.asarray(field + amount[:, None] * (color - field), np.float32)
 
 
+@dataclass(frozen=True)
+class _Photographed:
+    """What the photograph shows at M `texel` (M,): `color` (M, 3) sRGB in [0, 1] and its `weight` (M,) in [0, 1]."""
+
+    texel: NDArray[np.int64]
+    color: NDArray[np.float32]
+    weight: NDArray[np.float32]
+
+    def weights(self, count: int) -> NDArray[np.float32]:
+        """The weight of all `count` texels."""
+        out = np.zeros(count, np.float32)
+        out[self.texel] = self.weight
+        return out
+
+
 def _photographed(
-    image: NDArray[np.uint8], skin_at: SkinSeen, place: NDArray[np.float64], layout: _Layout
-) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Colour (N, 3) sRGB in [0, 1] of the photograph at the texels and its weight (N,), from the `place` of the
-    vertices (V, 4): x, y px, how well they are seen, and how far every colour counts there."""
-    x, y, seen, any_color = layout.at(place).T
-    inside = (x >= 0.5) & (y >= 0.5) & (x <= image.shape[1] - 0.5) & (y <= image.shape[0] - 0.5)
-    used = np.flatnonzero((seen > 0) & inside)
-    xy = np.column_stack([x[used], y[used]])
-    color, weight = np.zeros((len(x), 3), np.float32), np.zeros(len(x), np.float32)
-    color[used] = _remapped(image, xy - np.float32(0.5)) / np.float32(255)
+    image: NDArray[np.uint8], skin_at: SkinSeen, place: NDArray[np.float32], *, before: _Photographed | None = None
+) -> _Photographed:
+    """What the photograph shows at the `place` of the texels (N, 4): x, y px, how well the camera sees them, and how
+    far every colour counts there. It adds nothing where `before` shows enough."""
+    height, width = image.shape[:2]
+    x, y, seen, any_color = place.T
+    inside = (x >= 0.5) & (y >= 0.5) & (x <= width - 0.5) & (y <= height - 0.5)
+    worth = seen if before is None else seen * (before.weights(len(seen)) < ENOUGH)
+    texel = np.flatnonzero((worth > 0) & inside)
+    xy = place[texel, :2]
     bare, likely = _remapped(np.dstack([skin_at.bare, skin_at.likely]), skin_at.cells(xy)).T
-    weight[used] = seen[used] * bare * np.maximum(any_color[used], likely)
-    return color, weight
+    weight = seen[texel] * bare * np.maximum(any_color[texel], likely)
+    if before is not None:
+        weight *= np.clip(1 - before.weights(len(seen))[texel] / np.float32(ENOUGH), 0, 1)
+    color = np.asarray(_remapped(image, xy - np.float32(0.5)) / np.float32(255), np.float32)
+    return _Photographed(texel, color, weight)
+
+
+def _paint(sheet: NDArray[np.float32], own: _Photographed, other: _Photographed, *, gain: NDArray[np.float32]) -> None:
+    """Lays the photograph and its mirror image, brightened by `gain` (M, 3), over the `sheet` (N, 3) in place."""
+    amount = own.weights(len(sheet)) + other.weights(len(sheet))
+    scale = np.minimum(amount, 1) / np.maximum(amount, 1e-6)
+    sheet *= (1 - np.minimum(amount, 1))[:, None]
+    sheet[own.texel] += own.color * (own.weight * scale[own.texel])[:, None]
+    sheet[other.texel] += other.color * gain * (other.weight * scale[other.texel])[:, None]
+
+
+def _bytes(color: NDArray[np.float32]) -> NDArray[np.uint8]:
+    return np.clip(color * np.float32(255) + np.float32(0.5), 0, 255).astype(np.uint8)
 
 
 def _remapped(image: NDArray, xy: NDArray[np.floating]) -> NDArray:
