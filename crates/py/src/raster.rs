@@ -30,7 +30,7 @@ fn raster_project<'py>(
     let (points, numbers) = (points.as_slice()?.as_chunks().0, matrix.as_slice()?);
     let matrix: [[f64; 4]; 3] = std::array::from_fn(|row| std::array::from_fn(|column| numbers[row * 4 + column]));
     let projected = py.detach(|| tress_raster::project(points, &matrix)).map_err(refused)?;
-    let rows: Vec<[f32; 4]> = projected.iter().map(|v| [v.x, v.y, v.depth, v.scale]).collect();
+    let rows: Vec<[f32; 4]> = projected.into_iter().map(Into::into).collect();
     Ok(Array2::from(rows).into_pyarray(py))
 }
 
@@ -48,9 +48,9 @@ fn raster_gbuffer<'py>(
     width: usize,
     height: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (strand_points, mesh_vertices) = (vertices(&strand_points)?, vertices(&mesh_vertices)?);
+    let mesh_vertices = vertices(&mesh_vertices)?;
     let scene = ProjectedScene {
-        strand_points: &strand_points,
+        strand_points: strand_points.as_slice()?.as_chunks().0,
         offsets: offsets.as_slice()?,
         half_width_px: half_width_px.as_slice()?,
         alpha: alpha.as_slice()?,
@@ -147,8 +147,7 @@ fn segment_fragments<'a>(
 }
 
 fn vertices(array: &Rows<'_>) -> PyResult<Vec<ProjectedVertex>> {
-    let vertex = |v: &[f32]| ProjectedVertex { x: v[0], y: v[1], depth: v[2], scale: v[3] };
-    Ok(array.as_slice()?.chunks_exact(4).map(vertex).collect())
+    Ok(array.as_slice()?.as_chunks().0.iter().map(|row| ProjectedVertex::from(*row)).collect())
 }
 
 fn as_dict(py: Python<'_>, buffer: GBuffer) -> PyResult<Bound<'_, PyDict>> {

@@ -8,97 +8,165 @@ use rayon::prelude::*;
 
 use crate::splat::SegmentFragments;
 
-/// A share of a pixel's colour: which visible point, and how much.
-type Share = (u32, f32);
+/// Pixels that one core takes at a time.
+const CHUNK: usize = 4096;
 
-/// Which points show in which pixels, from both sides.
-struct Shares {
-    /// Points that show, ascending.
-    points: Vec<u32>,
-    /// Pixels that count and show hair, ascending.
-    pixels: Vec<u32>,
-    /// Per pixel of `pixels`: visible point and share of the pixel's hair; the shares add up to 1.
-    of_pixel: Rows,
-    /// Per point of `points`: pixel and weight; the weights add up to 1.
-    of_point: Rows,
+/// A fragment: the row of the other side that it belongs to, and how much its segment's two points show in it.
+#[derive(Clone, Copy, Default)]
+struct Entry {
+    at: u32,
+    shares: [f32; 2],
 }
 
-/// Rows of unequal length.
+/// Entries in rows of unequal length.
 struct Rows {
-    offsets: Vec<usize>,
-    entries: Vec<Share>,
+    offsets: Vec<u32>,
+    entries: Vec<Entry>,
 }
 
 impl Rows {
-    fn row(&self, index: usize) -> &[Share] {
-        &self.entries[self.offsets[index]..self.offsets[index + 1]]
+    fn row(&self, index: usize) -> &[Entry] {
+        &self.entries[self.offsets[index] as usize..self.offsets[index + 1] as usize]
     }
+}
 
-    /// The weighted sum of `values` in a row.
-    fn sum(&self, index: usize, values: &[[f32; 3]]) -> [f32; 3] {
-        let mut sum = [0.0f32; 3];
-        for (at, share) in self.row(index) {
-            let value = &values[*at as usize];
-            (0..3).for_each(|c| sum[c] += share * value[c]);
-        }
-        sum
-    }
-
-    /// Rows of the transposed matrix, each entry scaled by `weight` of its old row, each new row scaled to sum 1.
-    fn transposed(&self, weight: &[f32], rows: usize) -> Self {
-        let mut offsets = vec![0usize; rows + 1];
-        self.entries.iter().for_each(|(at, _)| offsets[*at as usize + 1] += 1);
-        (0..rows).for_each(|row| offsets[row + 1] += offsets[row]);
-        let mut next = offsets.clone();
-        let mut entries = vec![(0, 0.0); self.entries.len()];
-        for (old, weight) in weight.iter().enumerate() {
-            for (at, share) in self.row(old) {
-                let place = &mut next[*at as usize];
-                entries[*place] = (old as u32, share * weight);
-                *place += 1;
-            }
-        }
-        for row in 0..rows {
-            let row = &mut entries[offsets[row]..offsets[row + 1]];
-            let sum: f32 = row.iter().map(|(_, share)| share).sum();
-            row.iter_mut().for_each(|(_, share)| *share /= sum.max(1e-12));
-        }
-        Self { offsets, entries }
-    }
+/// Which points show in which pixels, from both sides. Points that show, and their neighbours within segments that
+/// show, are numbered anew: a segment whose first point is `i` ends at `i + 1` also there.
+struct Shares {
+    /// Points, ascending.
+    points: Vec<u32>,
+    /// Pixels that count and show hair, ascending.
+    pixels: Vec<u32>,
+    /// Per pixel the segments, by the number of their first point; the shares add up to 1.
+    of_pixel: Rows,
+    /// Per segment the pixels, in shares as they show and count.
+    of_segment: Rows,
+    /// Per point the sum of its shares.
+    weight: Vec<f32>,
 }
 
 impl Shares {
     fn new(fragments: &SegmentFragments, pixel_weight: &[f32], points: usize) -> Self {
-        let mut seen = vec![false; points];
-        fragments.for_each_share(|pixel, point, _| seen[point] |= pixel_weight[pixel] > 0.0);
-        let points: Vec<u32> = (0..points as u32).filter(|point| seen[*point as usize]).collect();
-        let mut number = vec![0u32; seen.len()];
-        points.iter().enumerate().for_each(|(index, point)| number[*point as usize] = index as u32);
-        let (mut pixels, mut weight) = (Vec::new(), Vec::new());
-        let (mut offsets, mut entries) = (vec![0], Vec::<Share>::new());
-        fragments.for_each_share(|pixel, point, share| {
-            if pixel_weight[pixel] > 0.0 {
-                if pixels.last() != Some(&(pixel as u32)) {
-                    pixels.push(pixel as u32);
-                    weight.push(pixel_weight[pixel]);
-                    offsets.push(entries.len());
-                }
-                entries.push((number[point], share as f32));
-                *offsets.last_mut().expect("never empty") = entries.len();
-            }
-        });
-        let mut coverage = Vec::with_capacity(pixels.len());
-        for pair in offsets.windows(2) {
-            let row = &mut entries[pair[0]..pair[1]];
-            let sum: f32 = row.iter().map(|(_, share)| share).sum();
-            row.iter_mut().for_each(|(_, share)| *share /= sum.max(1e-12));
-            coverage.push(sum);
-        }
-        let of_pixel = Rows { offsets, entries };
-        let counts: Vec<f32> = weight.iter().zip(&coverage).map(|(weight, coverage)| weight * coverage).collect();
-        let of_point = of_pixel.transposed(&counts, points.len());
-        Self { points, pixels, of_pixel, of_point }
+        let hairy = |pixel: u32| {
+            let range = fragments.of_pixel(pixel as usize);
+            pixel_weight[pixel as usize] > 0.0 && fragments.kind[range].contains(&0)
+        };
+        let pixels: Vec<u32> = (0..pixel_weight.len() as u32).into_par_iter().filter(|pixel| hairy(*pixel)).collect();
+        let (points, number) = numbered(fragments, &pixels, points);
+        let parts: Vec<Part> =
+            pixels.par_chunks(CHUNK).map(|pixels| Part::new(fragments, pixels, pixel_weight, &number)).collect();
+        let (of_pixel, counts) = joined(parts);
+        let of_segment = transposed(&of_pixel, &counts, points.len());
+        let weight = (0..points.len())
+            .into_par_iter()
+            .map(|point| of_point(&of_segment, point, 0.0, |sum, _, share| *sum += share).max(1e-12))
+            .collect();
+        Self { points, pixels, of_pixel, of_segment, weight }
     }
+
+    /// The mean colour of the hair in a pixel.
+    fn shown(&self, pixel: usize, colors: &[[f32; 3]]) -> [f32; 3] {
+        let mut sum = [0.0f32; 3];
+        for entry in self.of_pixel.row(pixel) {
+            let (a, b) = (&colors[entry.at as usize], &colors[entry.at as usize + 1]);
+            (0..3).for_each(|c| sum[c] += entry.shares[0] * a[c] + entry.shares[1] * b[c]);
+        }
+        sum
+    }
+
+    /// The mean of the pixels' values where a point shows.
+    fn mean(&self, point: usize, values: &[[f32; 3]]) -> [f32; 3] {
+        let sum = of_point(&self.of_segment, point, [0.0f32; 3], |sum, pixel, share| {
+            let value = &values[pixel as usize];
+            (0..3).for_each(|c| sum[c] += share * value[c]);
+        });
+        sum.map(|value| value / self.weight[point])
+    }
+}
+
+/// Ends of the segments that show in the pixels, ascending, and the place of every point among them.
+fn numbered(fragments: &SegmentFragments, pixels: &[u32], points: usize) -> (Vec<u32>, Vec<u32>) {
+    let mut seen = vec![false; points];
+    for pixel in pixels {
+        for i in fragments.of_pixel(*pixel as usize) {
+            if fragments.kind[i] == 0 {
+                let first = fragments.primitive[i] as usize;
+                seen[first..first + 2].fill(true);
+            }
+        }
+    }
+    let mut number = vec![0u32; points];
+    let mut found = Vec::new();
+    for (point, _) in seen.iter().enumerate().filter(|(_, seen)| **seen) {
+        number[point] = found.len() as u32;
+        found.push(point as u32);
+    }
+    (found, number)
+}
+
+/// The rows of some pixels.
+#[derive(Default)]
+struct Part {
+    entries: Vec<Entry>,
+    ends: Vec<u32>,
+    /// Per pixel how much hair it shows, times how much it counts.
+    counts: Vec<f32>,
+}
+
+impl Part {
+    fn new(fragments: &SegmentFragments, pixels: &[u32], pixel_weight: &[f32], number: &[u32]) -> Self {
+        let mut part = Self::default();
+        for pixel in pixels.iter().map(|pixel| *pixel as usize) {
+            let hair = || fragments.of_pixel(pixel).filter(|i| fragments.kind[*i] == 0);
+            let coverage: f32 = hair().map(|i| fragments.weight[i]).sum();
+            part.entries.extend(hair().map(|i| {
+                let (share, t) = (fragments.weight[i] / coverage.max(1e-12), fragments.parameter[i][0]);
+                Entry { at: number[fragments.primitive[i] as usize], shares: [share * (1.0 - t), share * t] }
+            }));
+            part.ends.push(part.entries.len() as u32);
+            part.counts.push(coverage * pixel_weight[pixel]);
+        }
+        part
+    }
+}
+
+fn joined(parts: Vec<Part>) -> (Rows, Vec<f32>) {
+    let mut entries = Vec::with_capacity(parts.iter().map(|part| part.entries.len()).sum());
+    let (mut offsets, mut counts) = (vec![0], Vec::new());
+    for part in parts {
+        let before = entries.len() as u32;
+        offsets.extend(part.ends.iter().map(|end| before + end));
+        entries.extend(part.entries);
+        counts.extend(part.counts);
+    }
+    (Rows { offsets, entries }, counts)
+}
+
+/// The same entries by segment: `at` becomes the old row, and shares are multiplied by the old row's `weight`.
+fn transposed(rows: &Rows, weight: &[f32], segments: usize) -> Rows {
+    let mut offsets = vec![0u32; segments + 1];
+    rows.entries.iter().for_each(|entry| offsets[entry.at as usize + 1] += 1);
+    (0..segments).for_each(|row| offsets[row + 1] += offsets[row]);
+    let mut next = offsets.clone();
+    let mut entries = vec![Entry::default(); rows.entries.len()];
+    for (old, weight) in weight.iter().enumerate() {
+        for entry in rows.row(old) {
+            let place = &mut next[entry.at as usize];
+            entries[*place as usize] = Entry { at: old as u32, shares: entry.shares.map(|share| share * weight) };
+            *place += 1;
+        }
+    }
+    Rows { offsets, entries }
+}
+
+/// Folds the pixels in which a point shows: of the segment that ends there, then of the one that begins there.
+fn of_point<T>(of_segment: &Rows, point: usize, start: T, add: impl Fn(&mut T, u32, f32)) -> T {
+    let mut sum = start;
+    if point > 0 {
+        of_segment.row(point - 1).iter().for_each(|entry| add(&mut sum, entry.at, entry.shares[1]));
+    }
+    of_segment.row(point).iter().for_each(|entry| add(&mut sum, entry.at, entry.shares[0]));
+    sum
 }
 
 /// Colours in [0, `most`] with which the hair's mean colour in every pixel of positive weight nears `target`.
@@ -121,8 +189,9 @@ pub fn fit_colors(
     for _ in 0..iterations {
         let residual: Vec<[f32; 3]> = (0..shares.pixels.len())
             .into_par_iter()
+            .with_min_len(1024)
             .map(|pixel| {
-                let shown = shares.of_pixel.sum(pixel, &ahead);
+                let shown = shares.shown(pixel, &ahead);
                 let wanted = target[shares.pixels[pixel] as usize];
                 [0, 1, 2].map(|c| wanted[c] - shown[c])
             })
@@ -132,8 +201,9 @@ pub fn fit_colors(
         pace = next_pace;
         (found, ahead) = (0..found.len())
             .into_par_iter()
+            .with_min_len(1024)
             .map(|point| {
-                let step = shares.of_point.sum(point, &residual);
+                let step = shares.mean(point, &residual);
                 let new = clipped([0, 1, 2].map(|c| ahead[point][c] + step[c]));
                 (new, clipped([0, 1, 2].map(|c| new[c] + momentum * (new[c] - found[point][c]))))
             })

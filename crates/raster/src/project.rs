@@ -24,6 +24,18 @@ pub struct ProjectedVertex {
     pub scale: f32,
 }
 
+impl From<[f32; 4]> for ProjectedVertex {
+    fn from([x, y, depth, scale]: [f32; 4]) -> Self {
+        Self { x, y, depth, scale }
+    }
+}
+
+impl From<ProjectedVertex> for [f32; 4] {
+    fn from(vertex: ProjectedVertex) -> Self {
+        [vertex.x, vertex.y, vertex.depth, vertex.scale]
+    }
+}
+
 /// Projects points in metres by the matrix `[u w, v w, w] = M [x, y, z, 1]`, row by row, affine or perspective.
 ///
 /// # Errors
@@ -33,7 +45,7 @@ pub fn project(points: &[[f32; 3]], matrix: &[[f64; 4]; 3]) -> Result<Vec<Projec
     let projected: Vec<ProjectedVertex> =
         points.par_iter().map(|p| camera.project(DVec3::new(p[0].into(), p[1].into(), p[2].into()))).collect();
     let finite = |v: &ProjectedVertex| v.x.is_finite() && v.y.is_finite() && v.depth.is_finite();
-    match projected.iter().position(|v| !finite(v)) {
+    match projected.par_iter().position_first(|v| !finite(v)) {
         Some(vertex) => Err(RasterError::NotFinite(vertex)),
         None => Ok(projected),
     }

@@ -76,7 +76,7 @@ impl Resolver<'_> {
         let (a, b) = (&self.points[first], &self.points[first + 1]);
         let [t, across] = Segment::new(a, b)?.parameters(x, y);
         let depth = a.depth + t * (b.depth - a.depth);
-        let scales = [self.scene.strand_points[first].scale, self.scene.strand_points[first + 1].scale];
+        let scales = [first, first + 1].map(|i| ProjectedVertex::from(self.scene.strand_points[i]).scale);
         let [_, t] = in_perspective([1.0 - t, t], scales);
         Some(Fragment { kind: Kind::Segment, primitive, parameter: [t, across], weight, depth })
     }

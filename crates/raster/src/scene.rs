@@ -5,8 +5,8 @@ use crate::{ProjectedVertex, RasterError};
 /// Strands and triangles on the screen, flat. Strand i has the points `offsets[i]..offsets[i + 1]`.
 #[derive(Debug, Clone, Copy)]
 pub struct ProjectedScene<'a> {
-    /// Points of all strands.
-    pub strand_points: &'a [ProjectedVertex],
+    /// Points of all strands, each the fields of a `ProjectedVertex` in their order.
+    pub strand_points: &'a [[f32; 4]],
     /// First point of every strand, and the number of points.
     pub offsets: &'a [i64],
     /// Half of the strand's width at every point, in pixels. Strands narrower than `min_width_px` are drawn that wide

@@ -86,7 +86,10 @@ impl<'a> Segment<'a> {
                 if nearest >= tile.farthest[pixel] {
                     continue;
                 }
-                let forms = forms.get_or_insert_with(|| SampleForms::new(self, mitres(points, index), pattern));
+                if forms.is_none() {
+                    forms = Some(SampleForms::new(self, mitres(points, index), pattern));
+                }
+                let Some(forms) = &forms else { unreachable!("made above") };
                 let corner = [(tile.origin[0] + column) as f32 - self.a.x, (tile.origin[1] + row) as f32 - self.a.y];
                 let thresholds = orders.of(self.a.row);
                 let (depth, primitive) = (&mut tile.depth[pixel], &mut tile.primitive[pixel]);

@@ -19,6 +19,11 @@ pub struct SegmentFragments<'a> {
 }
 
 impl SegmentFragments<'_> {
+    /// The fragments of a pixel.
+    pub(crate) fn of_pixel(&self, pixel: usize) -> std::ops::Range<usize> {
+        self.pixel_offsets[pixel] as usize..self.pixel_offsets[pixel + 1] as usize
+    }
+
     /// Calls `visit(pixel, point, share)` for both points of every fragment of a segment.
     pub(crate) fn for_each_share(&self, mut visit: impl FnMut(usize, usize, f64)) {
         for pixel in 0..self.pixel_offsets.len().saturating_sub(1) {
@@ -29,7 +34,7 @@ impl SegmentFragments<'_> {
     /// Calls `visit(point, share)` for both points of every fragment of a segment in one pixel.
     #[inline]
     pub(crate) fn for_each_share_of(&self, pixel: usize, mut visit: impl FnMut(usize, f32)) {
-        for i in self.pixel_offsets[pixel] as usize..self.pixel_offsets[pixel + 1] as usize {
+        for i in self.of_pixel(pixel) {
             if self.kind[i] == 0 {
                 let (first, t) = (self.primitive[i] as usize, self.parameter[i][0]);
                 visit(first, self.weight[i] * (1.0 - t));

@@ -54,7 +54,7 @@ pub(crate) fn strand_points(scene: &ProjectedScene) -> Vec<StrandPoint> {
     let least = 0.5 * scene.min_width_px;
     let own = (scene.strand_points.par_iter(), scene.half_width_px.par_iter(), scene.alpha.par_iter());
     let mut points: Vec<StrandPoint> =
-        own.into_par_iter().map(|(vertex, width, alpha)| point(vertex, *width, *alpha, least)).collect();
+        own.into_par_iter().map(|(vertex, width, alpha)| point((*vertex).into(), *width, *alpha, least)).collect();
     groups(scene.offsets, &mut points).into_par_iter().for_each(|(first_strand, offsets, points)| {
         for (i, ends) in offsets.windows(2).enumerate() {
             let range = (ends[0] - offsets[0]) as usize..(ends[1] - offsets[0]) as usize;
@@ -64,7 +64,7 @@ pub(crate) fn strand_points(scene: &ProjectedScene) -> Vec<StrandPoint> {
     points
 }
 
-fn point(vertex: &ProjectedVertex, width: f32, alpha: f32, least: f32) -> StrandPoint {
+fn point(vertex: ProjectedVertex, width: f32, alpha: f32, least: f32) -> StrandPoint {
     let given = width.max(0.0);
     let half_width = given.max(least);
     let share = if half_width > 0.0 { given / half_width } else { 0.0 };
@@ -79,10 +79,11 @@ fn point(vertex: &ProjectedVertex, width: f32, alpha: f32, least: f32) -> Strand
 }
 
 /// Gives the strand's row to the points at which a segment is drawn: those before the camera, as the next one is.
-fn begin_segments(vertices: &[ProjectedVertex], points: &mut [StrandPoint], strand: usize) {
+fn begin_segments(vertices: &[[f32; 4]], points: &mut [StrandPoint], strand: usize) {
     let row = OpacityOrders::row_of_strand(strand);
     for (pair, point) in vertices.windows(2).zip(points.split_last_mut().map_or(&mut [][..], |(_, before)| before)) {
-        point.row = if pair[0].scale > 0.0 && pair[1].scale > 0.0 { row } else { NONE };
+        let drawn = pair.iter().all(|vertex| ProjectedVertex::from(*vertex).scale > 0.0);
+        point.row = if drawn { row } else { NONE };
     }
 }
 

@@ -1,6 +1,6 @@
 """The stage `color`: opacities and colours of the strands with which the hair looks as in the photograph."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,13 +11,13 @@ from tress.base.params import Params, param
 from tress.base.report import Report
 from tress.image.labels import BODY, FACE
 from tress.image.matte import Matte
+from tress.kernel.raster import strand_picture
 from tress.methods.portrait.opacity import with_fitted_opacity
 from tress.model.evaluate import Scene
 from tress.render.fit_colors import fit_vertex_colors
 from tress.render.flat_scene import flat_scene
-from tress.render.gbuffer import GBuffer, hair_coverage
-from tress.render.picture import over, premultiplied_rgba, srgb_rgba
-from tress.render.styles.photo import PhotoStyle
+from tress.render.gbuffer import hair_coverage
+from tress.render.picture import over, srgb_rgba
 
 _MOSTLY_HAIR = 0.5
 _NO_HAIR = 0.02
@@ -26,6 +26,10 @@ _BRIGHTEST = 1.5
 _RELATIVE = 4.0
 """How much faster the reach around the matte's colour grows with that colour than it starts."""
 _LUMA = np.array([0.299, 0.587, 0.114])
+_ROOM_PX = 16
+
+Box = tuple[slice, slice]
+"""Rows and columns of a picture."""
 
 
 @dataclass(frozen=True)
@@ -88,52 +92,66 @@ def color_stage(
     )
     report.progress(0.4)
     coverage = hair_coverage(gbuffer)
+    box = _box((matte.alpha > 0) | (coverage > 0))
     color = fit_vertex_colors(
         gbuffer,
         colors=gbuffer.scene.color,
-        target_linear=_target(pixels, matte, coverage, params.own_color),
-        weight=np.where(matte.alpha > params.least_alpha, coverage, 0).astype(np.float32),
+        target_linear=_target(pixels, matte, coverage, box, params.own_color),
+        weight=np.where(matte.alpha > params.least_alpha, coverage, 0),
         iterations=params.iterations,
     )
-    return _compared(color, gbuffer, pixels, matte, covered, report)
+    hair = strand_picture(gbuffer.fragments, colors=color)
+    hair[covered] = 0
+    return _compared(hair, color, gbuffer.scene.alpha, pixels, matte, box, report)
+
+
+def _box(where: NDArray[np.bool_]) -> Box:
+    """The part of the picture that holds all pixels `where` (H, W) there is hair, with room for windows around it."""
+    sides = []
+    for axis in (1, 0):
+        within = np.flatnonzero(where.any(axis=axis))
+        low, high = (within[0], within[-1] + 1) if len(within) else (0, 1)
+        sides.append(slice(max(0, low - _ROOM_PX), high + _ROOM_PX))
+    return sides[0], sides[1]
 
 
 def _target(
-    pixels: NDArray[np.uint8], matte: Matte, coverage: NDArray[np.float32], own_color: float
+    pixels: NDArray[np.uint8], matte: Matte, coverage: NDArray[np.float32], box: Box, own_color: float
 ) -> NDArray[np.float32]:
-    """Colour (H, W, 3) that the strands should show, linear.
+    """Colour (H, W, 3) that the strands should show, linear; 0 outside the `box`.
 
     Where there is mostly hair: the colour with which the strands, covering as much of the pixel as they do, give the
     photo's pixel over the other layers, but near the matte's own colour of hair, lest the background tint it. At soft
     edges: the matte's colour.
     """
-    own = matte.foreground
-    seen = np.maximum(coverage, _LEAST_COVERAGE)[..., None]
-    exact = (srgb_to_linear(pixels) - (1 - coverage[..., None]) * matte.background) / seen
+    own, seen = matte.foreground[box], coverage[box][..., None]
+    exact = (srgb_to_linear(pixels[box]) - (1 - seen) * matte.background[box]) / np.maximum(seen, _LEAST_COVERAGE)
     reach = own_color * (1 + _RELATIVE * own)
     near = np.clip(own + np.clip(exact - own, -reach, reach), 0, _BRIGHTEST)
-    return np.where((matte.alpha > _MOSTLY_HAIR)[..., None], near, own).astype(np.float32)
+    target = np.zeros(pixels.shape, np.float32)
+    target[box] = np.where((matte.alpha[box] > _MOSTLY_HAIR)[..., None], near, own)
+    return target
 
 
 def _compared(
+    hair: NDArray[np.float32],
     color: NDArray[np.float32],
-    gbuffer: GBuffer,
+    alpha: NDArray[np.float32],
     pixels: NDArray[np.uint8],
     matte: Matte,
-    covered: NDArray[np.bool_],
+    box: Box,
     report: Report,
 ) -> ColoredHair:
-    """The hair alone and over the photo's other layers, and how like the photo that is."""
-    colored = replace(gbuffer, scene=replace(gbuffer.scene, color=color))
-    hair = premultiplied_rgba(colored, style=PhotoStyle(), hold_out_meshes=True)
-    hair[covered] = 0
-    composite = linear_to_srgb8(over(hair, background=matte.background))
-    mask = matte.alpha > _MOSTLY_HAIR
-    psnr, ssim = _likeness(composite, pixels, mask)
+    """`hair` (H, W, 4), premultiplied, over the photo's other layers, and how like the photo that is."""
+    composite, rerender = pixels.copy(), np.zeros((*pixels.shape[:2], 4), np.uint8)
+    composite[box] = linear_to_srgb8(over(hair[box], background=matte.background[box]))
+    rerender[box] = srgb_rgba(hair[box])
+    mask = matte.alpha[box] > _MOSTLY_HAIR
+    psnr, ssim = _likeness(composite[box], pixels[box], mask)
     report.number("psnr_db", round(psnr, 2))
     report.number("ssim", round(ssim, 4))
-    report.number("covered", round(float(hair[..., 3][mask].mean()), 4) if mask.any() else 0.0)
-    return ColoredHair(color, gbuffer.scene.alpha, srgb_rgba(hair), composite, psnr, ssim)
+    report.number("covered", round(float(hair[box][..., 3][mask].mean()), 4) if mask.any() else 0.0)
+    return ColoredHair(color, alpha, rerender, composite, psnr, ssim)
 
 
 def _likeness(picture: NDArray[np.uint8], photo: NDArray[np.uint8], mask: NDArray[np.bool_]) -> tuple[float, float]:

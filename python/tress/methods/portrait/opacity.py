@@ -9,16 +9,12 @@ Limits: strands are seen through 16 samples a pixel, so that more than 97 % cove
 pixel that no strand crosses stays empty.
 """
 
-from dataclasses import replace
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from tress.kernel import raster
-from tress.kernel.geom import rays_blocked
 from tress.render.flat_scene import FlatScene
-from tress.render.gbuffer import GBuffer, hair_coverage, rasterise
+from tress.render.gbuffer import GBuffer, SceneOnScreen, hair_coverage, on_screen
 
 _SOLID = 0.98
 """Matte from which hair counts as solid."""
@@ -27,6 +23,8 @@ _MOST_SEEN = 0.97
 _LAYERS = 4.0
 """Strands that lie behind each other at a soft edge, to begin with."""
 _BLUR_PX = 1.5
+_NEAR_PX = 5
+"""How far from a soft pixel its strands are looked for: half as long as segments are, and the reach of the blur."""
 _FLOOR = 0.01
 _LARGEST_FACTOR = 5.0
 
@@ -46,53 +44,54 @@ def with_fitted_opacity(
 
     The new opacities (N,) are those of the GBuffer's scene. Hair behind the head, or in pixels `covered` (H, W) by face
     or body, does not show, and keeps its own; so does hidden hair `on_skin` (N,), lest the skull show bald from the
-    side where it fills the outline. Costs `rounds + 1` rasterisations.
+    side where it fills the outline. Costs a rasterisation, and one of the soft edges alone a round.
     """
-    pixel = _pixels(flat, matte_alpha.shape, xy_from_world)
-    wanted = matte_alpha.ravel()[pixel]
-    solid = wanted > _SOLID
-    kept = solid | covered.ravel()[pixel] | on_skin
-    kept[~kept] = _behind_head(flat, np.flatnonzero(~kept), xy_from_world)
-    own = np.where(solid, 1.0, flat.alpha)
-    alpha = np.where(kept, own, 1 - (1 - np.minimum(wanted, _SOLID)) ** (1 / _LAYERS))
-
-    def seen() -> GBuffer:
-        height, width = matte_alpha.shape
-        return rasterise(
-            replace(flat, alpha=alpha.astype(np.float32)),
-            xy_from_world=xy_from_world,
-            width=width,
-            height=height,
-            strand_bias_m=strand_bias_m,
-            min_width_px=min_width_px,
-        )
-
-    gbuffer = seen()
+    height, width = matte_alpha.shape
+    seen = on_screen(
+        flat,
+        xy_from_world=xy_from_world,
+        width=width,
+        height=height,
+        strand_bias_m=strand_bias_m,
+        min_width_px=min_width_px,
+    )
+    pixel = seen.pixel
+    solid = (matte_alpha > _SOLID).ravel()[pixel]
+    alpha = np.where(solid, np.float32(1), flat.alpha)
+    soft = np.flatnonzero(~(solid | covered.ravel()[pixel] | on_skin))
+    soft = soft[~_behind_meshes(seen, soft, pixel[soft])]
+    wanted = matte_alpha.ravel()[pixel[soft]]
+    alpha[soft] = 1 - (1 - np.minimum(wanted, _SOLID)) ** (1 / _LAYERS)
+    edge = _near_soft(matte_alpha, pixel)
     for _ in range(rounds):
-        factor = _factor(matte_alpha, hair_coverage(gbuffer)).ravel()[pixel]
-        alpha = np.where(kept, own, 1 - (1 - np.minimum(alpha, 0.999)) ** factor)
-        gbuffer = seen()
-    return gbuffer
+        coverage = hair_coverage(seen.with_alpha(alpha).of_points(edge).rasterised())
+        factor = _factor(matte_alpha, coverage).ravel()[pixel[soft]]
+        alpha[soft] = 1 - (1 - np.minimum(alpha[soft], 0.999)) ** factor
+    return seen.with_alpha(alpha).rasterised()
 
 
 def _factor(wanted: NDArray[np.float32], coverage: NDArray[np.float32]) -> NDArray[np.floating]:
     """(H, W): by how much the optical depth of a pixel's strands should change."""
     target = -np.log1p(-np.clip(wanted, 0, _SOLID))
-    present = -np.log1p(-np.clip(coverage, 0, _MOST_SEEN))
+    present = -np.log1p(-np.where(wanted > _SOLID, _MOST_SEEN, np.clip(coverage, 0, _MOST_SEEN)))
     smooth_target, smooth_present = (cv2.GaussianBlur(depth, (0, 0), _BLUR_PX) + _FLOOR for depth in (target, present))
     return np.clip(smooth_target / smooth_present, 1 / _LARGEST_FACTOR, _LARGEST_FACTOR).astype(np.float32)
 
 
-def _behind_head(flat: FlatScene, points: NDArray[np.intp], xy_from_world: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which of the `points` (indices) have a mesh between them and the camera."""
-    towards = np.cross(xy_from_world[1, :3], xy_from_world[0, :3])
-    directions = np.broadcast_to(towards / np.linalg.norm(towards), (len(points), 3))
-    blocked = rays_blocked(flat.positions, triangles=flat.triangles, origins=flat.points[points], directions=directions)
-    return np.asarray(blocked, np.bool_)
+def _behind_meshes(seen: SceneOnScreen, points: NDArray[np.intp], pixel: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """Which of the `points` (indices), which lie in `pixel`, have a mesh before them."""
+    fragments = seen.of_points(np.zeros(len(seen.points), np.bool_)).rasterised().fragments
+    first, end = fragments.pixel_offsets[:-1], fragments.pixel_offsets[1:]
+    nearest = np.full(len(first), np.inf, np.float32)
+    nearest[first < end] = fragments.depth[first[first < end]]
+    return seen.points[points, 2] > nearest[pixel]
 
 
-def _pixels(flat: FlatScene, shape: tuple[int, ...], xy_from_world: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Index (N,) of the pixel, row by row, in which every point lies; points beside the photo take its border."""
-    xy = raster.project(flat.points, xy_from_points=xy_from_world)[:, :2]
-    column, row = (np.clip(xy[:, axis].astype(np.intp), 0, shape[1 - axis] - 1) for axis in (0, 1))
-    return row * shape[1] + column
+def _near_soft(matte_alpha: NDArray[np.float32], pixel: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """(N,): both ends of every segment of which an end lies in or near a soft pixel."""
+    soft = ((matte_alpha > 0) & (matte_alpha <= _SOLID)).astype(np.uint8)
+    near = cv2.dilate(soft, np.ones((2 * _NEAR_PX + 1,) * 2, np.uint8)).ravel()[pixel] > 0
+    ends = near.copy()
+    ends[1:] |= near[:-1]
+    ends[:-1] |= near[1:]
+    return ends
