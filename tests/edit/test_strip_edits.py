@@ -25,6 +25,7 @@ from tress.edit.lock import lock
 from tress.edit.mirror import mirror
 from tress.edit.push_out import push_out
 from tress.edit.refine import refine
+from tress.edit.surface_distance import skin
 from tress.edit.transform import transform
 from tress.edit.ungroup import ungroup
 from tress.edit.variation import Variation
@@ -462,3 +463,22 @@ def heights_above(document):
 def test_wrong_edits_of_strips_are_refused(edit, message):
     with pytest.raises((InputError, ParameterError), match=message):
         edit(hairdo())
+
+
+def test_pushed_out_strips_are_outside_a_head_with_ears_and_a_mouth():
+    from tress.head.statistical import load_statistical_head
+
+    found = load_statistical_head()
+    mesh = replace(BALL, positions=found.mean, triangles=found.triangles, vertex_attributes={})
+    assert len(skin(mesh).triangles) < len(mesh.triangles)
+    scalp = np.flatnonzero(found.masks["scalp"][found.triangles].min(axis=1) > 0.5)
+    document = Document({"head": mesh, "pattern": flat_strip(length_m=0.15, width_m=0.02)})
+    kinds = Variation(tilt_low=-0.2, tilt_high=0.3, curl_low=-1.5)
+    document = changed(
+        attach, document, names=["pattern"], surface="head", triangles=scalp[::40], into="cap", variation=kinds
+    )
+    assert min(clearances(document, names=["cap"], surface="head").values()) < -0.005
+    report = Report()
+    after = changed(push_out, document, names=["cap"], surface="head", report=report)
+    assert not report.stages[0].warnings
+    assert min(clearances(after, names=["cap"], surface="head", density=5).values()) >= 0

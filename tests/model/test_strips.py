@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from tress.base.errors import InputError
+from tress.kernel import nurbs
 from tress.kernel.curves import reversed_knots, uniform_knots
 from tress.model.atlas import Atlas
 from tress.model.attachment import Attachment
@@ -22,7 +23,7 @@ from tress.model.mesh import Mesh
 from tress.model.strip import Strip
 from tress.model.strip_grid import strip_grid
 from tress.model.strip_mesh import strips_mesh
-from tress.model.strip_set import posed_points, strip_set
+from tress.model.strip_set import kernel_patches, posed_points, strip_set
 from tress.model.strips import locked_by, strip_names, visible_strips
 
 LAX = settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
@@ -127,6 +128,20 @@ def test_without_weights_a_grid_is_scipys_tensor_spline():
     spline = NdBSpline((patch.knots_u, patch.knots_v), NET, patch.degrees)
     grid = strip_grid([patch])
     assert grid.points(NET.reshape(-1, 3)) == pytest.approx(spline(grid.fraction), abs=1e-15)
+
+
+@LAX
+@given(st.lists(strips(roots=st.none()), min_size=1, max_size=4), st.integers(0, 2**32))
+def test_grids_are_what_the_kernel_evaluates(patches, seed):
+    patches = [replace(patch, points=np.random.default_rng(seed).normal(size=patch.points.shape)) for patch in patches]
+    grid = strip_grid(patches)
+    found = grid.points(np.concatenate([patch.points.reshape(-1, 3) for patch in patches]))
+    ends = np.array([[patch.knots_u[p], patch.knots_v[q]] for patch in patches for p, q in [patch.degrees]])
+    tops = np.array([[patch.knots_u[-p - 1], patch.knots_v[-q - 1]] for patch in patches for p, q in [patch.degrees]])
+    uv = ends[grid.strip] + (tops - ends)[grid.strip] * grid.fraction
+    uv = np.clip(uv, ends[grid.strip], tops[grid.strip])
+    wanted = nurbs.evaluate(kernel_patches(patches), uv=uv, index=grid.strip.astype(np.int64))
+    assert found == pytest.approx(wanted, abs=1e-12)
 
 
 def test_a_rational_quadratic_draws_a_circle():

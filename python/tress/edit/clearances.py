@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from tress.edit.surface_distance import DENSITY, distances
+from tress.edit.surface_distance import DENSITY, distances, skin
 from tress.model.attachment import surface_mesh
 from tress.model.document import Document
 from tress.model.strip_grid import strip_grid
@@ -19,7 +19,7 @@ def clearances(
 
     Raises `InputError` where the surface is no `Head` or `Mesh`, or a name is no strip or group.
     """
-    mesh = surface_mesh(document, surface, where="A strip")
+    mesh = skin(surface_mesh(document, surface, where="A strip"))
     strips = strip_set(document, strip_names(document, names))
     grid = strip_grid(strips.records, density=density)
     least = np.full(len(strips.names), np.inf)

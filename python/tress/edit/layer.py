@@ -10,7 +10,7 @@ from tress.base.report import Report
 from tress.edit.move_points import moved
 from tress.edit.pushing import pushed
 from tress.edit.selection import editable_strips
-from tress.edit.surface_distance import DENSITY, distances
+from tress.edit.surface_distance import DENSITY, distances, skin
 from tress.kernel.geom import ray_hits
 from tress.model.attachment import surface_mesh
 from tress.model.diff import Diff
@@ -47,7 +47,7 @@ def layer(
     if not (0 <= gap_m < np.inf and 0 < within_m < np.inf) or max_iterations < 1:
         raise InputError(f"A gap of {gap_m} m within {within_m} m in {max_iterations} rounds is none.")
     report = report or Report()
-    mesh = surface_mesh(document, surface, where="A strip")
+    mesh = skin(surface_mesh(document, surface, where="A strip"))
     strips = strip_set(document, list(editable_strips(document, outer)))
     below = strip_set(document, strip_names(document, inner))
     if both := set(strips.names) & set(below.names):

@@ -10,7 +10,7 @@ from tress.base.report import Report
 from tress.edit.move_points import moved
 from tress.edit.pushing import pushed
 from tress.edit.selection import editable_strips
-from tress.edit.surface_distance import DENSITY, ON_SURFACE_M, distances
+from tress.edit.surface_distance import DENSITY, ON_SURFACE_M, distances, skin
 from tress.model.attachment import surface_mesh
 from tress.model.diff import Diff
 from tress.model.document import Document
@@ -27,7 +27,7 @@ def push_out(
     *,
     names: Iterable[str],
     surface: str,
-    clearance_m: float = 0.0005,
+    clearance_m: float = 0.001,
     max_iterations: int = 60,
     report: Report | None = None,
 ) -> Diff:
@@ -41,7 +41,7 @@ def push_out(
     if not 0 <= clearance_m < np.inf or max_iterations < 1:
         raise InputError(f"A clearance of {clearance_m} m in {max_iterations} rounds; 0 or more, and 1, were expected.")
     report = report or Report()
-    mesh = surface_mesh(document, surface, where="A strip")
+    mesh = skin(surface_mesh(document, surface, where="A strip"))
     strips = strip_set(document, list(editable_strips(document, names)))
     if not strips.names:
         return Diff()

@@ -16,6 +16,8 @@ from tress.model.strip_grid import StripGrid
 
 Array = np.ndarray[Any, Any]
 
+GROWTH = 0.2  # of the steps: in the folds of ears, even steps lead from wall to wall
+
 
 @dataclass(frozen=True, eq=False)
 class Pushed:
@@ -53,7 +55,9 @@ def pushed(
         if not asking.any():
             return Pushed(points, iteration, True)
         if iteration < max_iterations:
-            points += _largest_share(weights[rows[asking]], wanted[asking], count=len(points))
+            points += (1 + GROWTH * iteration) * _largest_share(
+                weights[rows[asking]], wanted[asking], count=len(points)
+            )
         restless = np.unique(grid.strip[rows[asking]])
         rows = np.flatnonzero(np.isin(grid.strip, restless) & able)
     return Pushed(points, max_iterations, False)

@@ -5,11 +5,12 @@ few operations on arrays, not with a few for each strip.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from tress.kernel import nurbs
 from tress.model.document import Document
 from tress.model.group import lineage
 from tress.model.keyframes import Keyframes
@@ -81,6 +82,14 @@ def strip_set(document: Document, names: Sequence[str]) -> StripSet:
         frames=root_frames(document, [strip.root for strip in strips]),
         motion=_motion(document, names, strips, offsets),
     )
+
+
+def kernel_patches(strips: Sequence[Strip], points: Array | None = None) -> nurbs.Patches:
+    """The strips as the kernel takes them, with these control points (N, 3), or their own."""
+    found = nurbs.Patches.of(
+        [nurbs.Patch(strip.points, strip.weights, strip.knots_u, strip.knots_v, *strip.degrees) for strip in strips]
+    )
+    return found if points is None else replace(found, points=points)
 
 
 def posed_points(strips: StripSet, time: float = 0.0) -> Array:
