@@ -1,11 +1,13 @@
 """Layers of made pictures: the cut follows colour, the prior decides where colours agree, strokes mend."""
 
+import cv2
 import numpy as np
 import pytest
 
 from tress.base.errors import InputError
 from tress.image.labels import BACKGROUND, BODY, FACE, HAIR
 from tress.image.layers import LayerParams, segment_layers
+from tress.image.spread import spread_of_strokes
 from tress.image.strokes import NO_STROKE
 
 SIDE = 160
@@ -130,3 +132,43 @@ def test_wrong_shapes_are_refused() -> None:
         segment_layers(image, prior=vague_prior(), strokes=np.zeros((3, 3), np.uint8))
     with pytest.raises(InputError, match="value 7"):
         segment_layers(image, prior=vague_prior(), strokes=np.full(image.shape[:2], 7, np.uint8))
+
+
+def test_a_short_stroke_carries_over_what_looks_like_it() -> None:
+    """A hat in the hair's place: one line across it takes all of it off, and nothing of the hair below."""
+    image, truth = portrait()
+    hat = (truth == HAIR) & (np.indices(truth.shape)[0] < 0.26 * SIDE)
+    image[hat] = np.clip(np.random.default_rng(2).normal((150, 40, 90), 6, (hat.sum(), 3)), 0, 255)
+    strokes = np.full(truth.shape, NO_STROKE, np.uint8)
+    strokes[30:34, 64:96] = BODY
+    before = segment_layers(image, prior=vague_prior(), params=PARAMS)
+    after = segment_layers(image, prior=vague_prior(), strokes=strokes, params=PARAMS)
+    below = (truth == HAIR) & (np.indices(truth.shape)[0] > 0.3 * SIDE)
+    assert (before.label[hat] == HAIR).mean() > 0.6
+    assert (after.label[hat] == HAIR).mean() < 0.1
+    assert (after.label[below] == HAIR).mean() >= (before.label[below] == HAIR).mean() - 0.1
+
+
+def test_what_a_stroke_says_stops_at_an_edge_and_at_other_strokes() -> None:
+    samples = np.zeros((7, 5))
+    samples[3] = 60
+    edges = np.array([[k, k + 1] for k in range(6)], np.int32)
+    strokes = np.full(7, NO_STROKE, np.uint8)
+    strokes[0] = BODY
+    spread = spread_of_strokes(samples, strokes=strokes, edges=edges)
+    assert spread[0, BODY] == 1 and spread[2, BODY] > 0.8 and (spread[3:, BODY] < 0.01).all()
+    assert (spread[:, [BACKGROUND, FACE, HAIR]] == 0).all()
+    strokes[1] = HAIR
+    spread = spread_of_strokes(samples, strokes=strokes, edges=edges)
+    assert spread[2, BODY] == 0 and spread[2, HAIR] > 0.8 and spread[1].tolist() == [0, 0, 0, 1]
+
+
+def test_an_enlarged_photograph_has_the_same_layers() -> None:
+    image, _ = portrait()
+    prior = vague_prior()
+    large = cv2.resize(image, None, fx=4, fy=4, interpolation=cv2.INTER_CUBIC)
+    large_prior = cv2.resize(prior, None, fx=4, fy=4, interpolation=cv2.INTER_LINEAR)
+    params = LayerParams(work_size=320, superpixels=1000)
+    small = segment_layers(image, prior=prior, params=params).hair_mask
+    again = segment_layers(large, prior=large_prior, params=params).hair_mask[2::4, 2::4]
+    assert (small & again).sum() / (small | again).sum() > 0.95

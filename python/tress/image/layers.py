@@ -29,6 +29,7 @@ from tress.image.guided_filter import guided_filter
 from tress.image.labels import BACKGROUND, BODY, FACE, HAIR, LAYER_COUNT
 from tress.image.mixture import fitted_mixture, log_density
 from tress.image.reach import reach
+from tress.image.spread import spread_of_strokes
 from tress.image.strokes import NO_STROKE
 from tress.image.superpixels import Superpixels, mean_over, superpixels
 
@@ -41,9 +42,11 @@ _BARE = (0.42, 0.58)
 
 _EVEN_TEXTURE, _PER_TEXTURE = 0.4, 1.4
 _EVEN_GRAIN, _PER_GRAIN = 0.57, 3.5
-"""Fine texture and grain at which a patch is as likely hair as not, and logarithm of odds for each unit more: middle and
-slope between hair (0.8 and 0.7 in the mean) and skin and clothes (0.0 and 0.43) in common photographs."""
+"""Fine texture and grain at which a patch is as likely hair as not, and logarithm of odds for each unit more: middle
+and slope between hair (0.8 and 0.7 in the mean) and skin and clothes (0.0 and 0.43) in common photographs."""
 _MOST_ODDS = 2.0
+_ROOTED = 0.52
+"""Prior of hair from which on hair may have its roots there: not below the chin."""
 _RIM = 35.0
 """Step in Lab to a neighbour at which a patch's texture is half its own and half the outline of something."""
 _NEAR = 0.06
@@ -69,6 +72,7 @@ class LayerParams(Params):
     reach_weight: float = param(0.5, low=0.0, high=10.0, doc="Weight of the way from sure hair to a patch.")
     reach_bonus: float = param(1.5, low=0.0, high=10.0, doc="What being within reach says for hair.")
     most_reach: float = param(6.0, low=0.0, high=100.0, doc="Most that being out of reach says against hair.")
+    stroke_weight: float = param(5.0, low=0.0, high=20.0, doc="Weight of a stroke where it carries to, as log of odds.")
     edge_radius: int = param(5, low=1, high=64, unit="px", doc="Reach of the last fitting to the photograph's edges.")
 
 
@@ -155,6 +159,7 @@ def _cut_layers(
 ) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
     samples = features(patches)
     border = _border_cost(patches, params)
+    prior = _with_spread_strokes(samples, prior, stroke, patches, params.stroke_weight)
     prior = _without_bare_hair(samples, prior, stroke, patches)
     weights = _first_weights(samples, prior, stroke, patches)
     label = prior.argmax(axis=1).astype(np.uint8)
@@ -168,6 +173,21 @@ def _cut_layers(
         weights = _weights_of_cut(label, prior, stroke, patches)
         weights[:, BODY] *= np.maximum(1 - _likeness(samples, look[:, HAIR]), 0.02)
     return label, cost
+
+
+def _with_spread_strokes(
+    samples: NDArray[np.float64],
+    prior: NDArray[np.float64],
+    stroke: NDArray[np.uint8],
+    patches: Superpixels,
+    weight: float,
+) -> NDArray[np.float64]:
+    """The prior, with what was stroked likelier where strokes carry to."""
+    if (stroke == NO_STROKE).all():
+        return prior
+    prior = prior * np.exp(weight * spread_of_strokes(samples, strokes=stroke, edges=patches.edges))
+    prior = np.maximum(prior / prior.sum(axis=1, keepdims=True), _LEAST_PRIOR)
+    return prior / prior.sum(axis=1, keepdims=True)
 
 
 def _strand_odds(patches: Superpixels) -> NDArray[np.float64]:
@@ -252,7 +272,7 @@ def _with_reach(
     strand = params.strand_weight * _strand_odds(patches) * (cost[:, HAIR] < _NEVER)
     behind = cost[:, HAIR] - strand - cost[:, [BACKGROUND, BODY, FACE]].min(axis=1)
     toll = np.maximum(behind, 0)
-    start = _largest_patchwork((seeds > 0.3 * seeds.max()) & (behind < 0), patches)
+    start = _largest_patchwork((seeds > 0.3 * seeds.max()) & (behind < 0) & (prior[:, HAIR] > _ROOTED), patches)
     edges = np.concatenate([patches.edges, _over_the_top(patches, (behind < 0) & (prior[:, HAIR] > 0.4))])
     way = np.minimum(reach(toll, edges=edges, start=start | (stroke == HAIR)) - toll, _NEVER)
     cost = cost.copy()
