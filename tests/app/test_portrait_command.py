@@ -88,6 +88,7 @@ def test_a_rerun_from_a_stage_gives_the_same_bits(tress, finished, photo, tmp_pa
     said = tress("portrait", photo, "-o", folder, *SMALL, "--from-stage", stage)
     assert said.code == 0, said.err
     assert (folder / "hair.hair").read_bytes() == (finished / "hair.hair").read_bytes()
+    assert "together" in said.out and "left from" not in said.out
     report = json.loads((folder / "report.json").read_text())
     assert "head" not in names(report["stages"])
 
@@ -120,7 +121,9 @@ def copied(source: Path, target: Path) -> Path:
 def test_a_rerun_leaves_no_picture_of_the_last_run(tress, finished, photo, tmp_path):
     folder = copied(finished, tmp_path / "out")
     arguments = ("portrait", photo, "-o", folder, *SMALL, "--formats", "usda")
-    assert tress(*arguments, "--from-stage", "color").code == 0
+    said = tress(*arguments, "--from-stage", "color")
+    assert said.code == 0, said.err
+    assert "left from an earlier run: hair.hair\n" in said.out
     (folder / "textures" / "mine.png").write_bytes(b"kept")
     first = sorted((folder / "textures").iterdir())
     other = ("--from-stage", "head", "--max-size", "200")  # another texture

@@ -1,4 +1,4 @@
-"""`tress convert`: a saved document into another format."""
+"""`tress convert`: a saved file into another format."""
 
 from pathlib import Path
 from typing import Annotated
@@ -12,14 +12,28 @@ from tress.app.exit_codes import guarded
 def convert(
     source: Annotated[Path, typer.Argument(help="A file that Tress wrote, best the .usdc.", show_default=False)],
     target: Annotated[Path, typer.Argument(help="The file to write; its ending says the format.", show_default=False)],
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing but errors.")] = False,
+    json_output: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Write a saved document in another format. What that format cannot hold is left out.
+    """Write a saved file in another format. What that format cannot hold is left out.
 
-    Example:  tress convert out/hair.usdc hair.ply
+    Read are .usdc, .usda, .usd, .hair, .ply, .obj and .npz; written are these and .glb.
+
+    Examples:
+
+      tress convert out/hair.usdc hair.ply
+
+      tress convert out/hair.usdc out/copy.usda
     """
     from tress.app.saved_document import opened
     from tress.io.formats.registry import format_of
 
     form = format_of(target)
     form.write(opened(source), target)
-    typer.echo(f"{target} ({target.stat().st_size / 1e6:.1f} MB)")
+    size = target.stat().st_size
+    if json_output:
+        import json
+
+        typer.echo(json.dumps({"ok": True, "file": str(target), "format": form.name, "bytes": size}))
+    elif not quiet:
+        typer.echo(f"{target} ({size / 1e6:.1f} MB)")

@@ -1,5 +1,6 @@
-"""`tress info`: what a saved document holds."""
+"""`tress info`: what a saved file holds."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -7,59 +8,87 @@ import typer
 
 from tress.app.exit_codes import guarded
 
+_RECORDS_SHOWN = 40
+
 
 @guarded
 def info(
-    file: Annotated[Path, typer.Argument(help="A file that Tress wrote.", show_default=False)],
-    json_output: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    file: Annotated[Path, typer.Argument(help="A file that Tress wrote, best the .usdc.", show_default=False)],
+    verbose: Annotated[
+        int, typer.Option("-v", "--verbose", count=True, help="Show every field, and all parameters.")
+    ] = 0,
+    json_output: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Say what a saved document holds: its records, their sizes, and the parameters that it was made with.
+    """Say what a saved file holds: strands, head, camera, and the parameters that they were made with.
 
-    Example:  tress info out/hair.usdc
+    Examples:
+
+      tress info out/hair.usdc
+
+      tress info out/hair.usdc -v
     """
     from tress.app.saved_document import opened
+    from tress.io.formats.registry import format_of
 
-    records = {name: _summary(record) for name, record in opened(file).records.items()}
+    records = opened(file).records
+    facts = {"format": format_of(file).name, "bytes": file.stat().st_size}
     if json_output:
         import json
 
-        typer.echo(json.dumps(records, indent=2))
+        fields = {name: _fields(record) for name, record in records.items()}
+        typer.echo(json.dumps({"ok": True, "file": str(file), **facts, "records": fields}))
     else:
-        _print_table(records)
+        typer.echo(f"{file}: {facts['format']}, {facts['bytes'] / 1e6:.1f} MB")
+        _print_fields(records) if verbose else _print_lines(records)
 
 
-def _summary(record: Any) -> dict[str, Any]:
+def _print_lines(records: Mapping[str, Any]) -> None:
+    """One line a record; of very many records the first."""
+    from rich.table import Table
+
+    from tress.app.record_words import record_words
+
+    table = Table("record", "type", "holds", box=None, pad_edge=False, header_style="bold")
+    for name, record in list(records.items())[:_RECORDS_SHOWN]:
+        table.add_row(name, type(record).__name__, record_words(record))
+    if len(records) > _RECORDS_SHOWN:
+        table.add_row("…", "", f"and {len(records) - _RECORDS_SHOWN} more; -v shows all")
+    _console().print(table)
+
+
+def _print_fields(records: Mapping[str, Any]) -> None:
+    from rich.table import Table
+
+    table = Table("record", "field", "value", box=None, pad_edge=False, header_style="bold")
+    for name, record in records.items():
+        for index, (field, words) in enumerate(_fields(record).items()):
+            table.add_row(name if index == 0 else "", field, str(words))
+    _console().print(table)
+
+
+def _console() -> Any:
+    from rich.console import Console
+
+    return Console(soft_wrap=True)
+
+
+def _fields(record: Any) -> dict[str, Any]:
     """The record's type, plain values, and shapes of its arrays, under dotted names."""
     import dataclasses
-    from collections.abc import Mapping
 
-    import numpy as np
-
-    summary: dict[str, Any] = {"type": type(record).__name__}
+    fields: dict[str, Any] = {"type": type(record).__name__}
     for field in dataclasses.fields(record):
         value = getattr(record, field.name)
-        if isinstance(value, np.ndarray):
-            summary[field.name] = f"{value.dtype.name} {' x '.join(map(str, value.shape))}"
-        elif dataclasses.is_dataclass(value):
-            summary |= {f"{field.name}.{name}": words for name, words in _summary(value).items()}
+        if dataclasses.is_dataclass(value):
+            fields |= {f"{field.name}.{name}": words for name, words in _fields(value).items()}
         elif isinstance(value, Mapping):
-            summary |= {f"{field.name}.{name}": _words(item) for name, item in value.items()}
+            fields |= {f"{field.name}.{name}": _words(item) for name, item in value.items()}
         elif value is not None:
-            summary[field.name] = value
-    return summary
+            fields[field.name] = _words(value)
+    return fields
 
 
 def _words(value: Any) -> Any:
+    """A plain value as it is; of an array its type and shape."""
     shape = getattr(value, "shape", None)
     return value if shape is None else f"{value.dtype.name} {' x '.join(map(str, shape))}"
-
-
-def _print_table(records: dict[str, dict[str, Any]]) -> None:
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table("record", "holds", "", box=None, pad_edge=False)
-    for name, summary in records.items():
-        for index, (part, words) in enumerate(summary.items()):
-            table.add_row(name if index == 0 else "", part, str(words))
-    Console().print(table)

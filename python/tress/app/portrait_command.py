@@ -14,7 +14,9 @@ _SCREEN = "Screen"
 
 @guarded
 def portrait(
-    photo: Annotated[Path, typer.Argument(help="The photograph: JPEG, PNG, WebP, TIFF …", show_default=False)],
+    photo: Annotated[
+        Path, typer.Argument(help="The photograph: JPEG, PNG, WebP, TIFF …", metavar="PHOTO", show_default=False)
+    ],
     output: Annotated[Path, typer.Option("-o", "--output", help="Folder for the results; made if absent.")] = Path(
         "out"
     ),
@@ -110,7 +112,7 @@ def portrait(
 
       tress portrait me.jpg -o out/ --strokes strokes.json --from-stage layers
 
-      tress portrait me.jpg -o out/ --set depth.weight_smooth=4 --from-stage depth
+      tress portrait me.jpg -o out/ --set trace.min_length_px=12 --from-stage trace
     """
     from tress.app.screen import screen
     from tress.app.threads import limit_threads

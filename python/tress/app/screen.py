@@ -104,6 +104,8 @@ def _stage_table(stages: Sequence[StageReport], *, verbose: int) -> Table:
         shown = list(stage.numbers.items())[: None if verbose else _NUMBERS_SHOWN]
         figures = ", ".join(f"{name.replace('_', ' ')} {_figure(value)}" for name, value in shown)
         table.add_row(stage.name, f"{stage.duration_secs:.2f}", Text(figures, style="dim"))
+    table.add_section()
+    table.add_row("together", f"{sum(stage.duration_secs for stage in stages):.2f}", style="bold")
     return table
 
 
@@ -123,7 +125,16 @@ def _file_table(delivered: Delivered) -> Group:
     for parent in sorted({path.parent for path in inner}):
         files = [delivered.folder / path for path in inner if path.parent == parent]
         table.add_row(f"{parent}/ ({len(files)} files)", _size(sum(file.stat().st_size for file in files)))
-    return Group(Text(f"\nwritten to {delivered.folder}/", style="bold"), table)
+    older = ", ".join(path.name for path in _older_files(delivered))
+    words = [Text(f"left from an earlier run: {older}", style="yellow")] if older else []
+    return Group(Text(f"\nwritten to {delivered.folder}/", style="bold"), table, *words)
+
+
+def _older_files(delivered: Delivered) -> list[Path]:
+    """Files of the results' names in the folder that this run did not write."""
+    names = {path.name for path in delivered.files}
+    found = [*delivered.folder.glob("hair.*"), delivered.folder / "turntable.webm"]
+    return sorted(path for path in found if path.is_file() and path.name not in names)
 
 
 def _size(byte_count: int) -> str:

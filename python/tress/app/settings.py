@@ -38,7 +38,7 @@ def _group_settings(prefix: str, group: Any) -> Iterator[Setting]:
 
 
 def with_settings(params: P, assignments: Sequence[str]) -> P:
-    """`params` with the `assignments` ("depth.weight_smooth=2") made.
+    """`params` with the `assignments` ("depth.depth_weight=2") made.
 
     Raises `ParameterError` for an unknown name (with the nearest known one), a value of the wrong type or one out of
     range.
