@@ -10,7 +10,7 @@ export PIP_QUIET := 1
 RUST_SOURCES := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml
 ASSET_SOURCES := $(shell find tools/assets -name '*.py' 2>/dev/null)
 
-.PHONY: help setup core assets demo test test-full test-lowest lint fmt bench eval docs clean
+.PHONY: help setup core assets demo test test-full test-lowest lint fmt bench eval docs pictures clean
 help: ## what can be made
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 
@@ -82,3 +82,6 @@ demo: setup ## the main job on a real photograph, into out/demo/
 docs: setup ## the documentation, into site/
 	$(BIN)/python -m tools.parameters_page
 	$(BIN)/mkdocs build --quiet
+
+pictures: setup ## the pictures of README and documentation anew
+	$(BIN)/python -m tools.pictures

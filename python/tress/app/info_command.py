@@ -44,32 +44,25 @@ def info(
 
 def _print_lines(records: Mapping[str, Any]) -> None:
     """One line a record; of very many records the first."""
-    from rich.table import Table
-
     from tress.app.record_words import record_words
+    from tress.app.tables import print_table
 
-    table = Table("record", "type", "holds", box=None, pad_edge=False, header_style="bold")
-    for name, record in list(records.items())[:_RECORDS_SHOWN]:
-        table.add_row(name, type(record).__name__, record_words(record))
-    if len(records) > _RECORDS_SHOWN:
-        table.add_row("…", "", f"and {len(records) - _RECORDS_SHOWN} more; -v shows all")
-    _console().print(table)
+    shown = list(records.items())[:_RECORDS_SHOWN]
+    rows = [(name, type(record).__name__, record_words(record)) for name, record in shown]
+    if len(records) > len(rows):
+        rows.append(("…", "", f"and {len(records) - len(rows)} more; -v shows all"))
+    print_table(["record", "type", "holds"], rows)
 
 
 def _print_fields(records: Mapping[str, Any]) -> None:
-    from rich.table import Table
+    from tress.app.tables import print_table
 
-    table = Table("record", "field", "value", box=None, pad_edge=False, header_style="bold")
+    rows = []
     for name, record in records.items():
-        for index, (field, words) in enumerate(_fields(record).items()):
-            table.add_row(name if index == 0 else "", field, str(words))
-    _console().print(table)
-
-
-def _console() -> Any:
-    from rich.console import Console
-
-    return Console(soft_wrap=True)
+        fields = _fields(record)
+        names = [name, *[""] * (len(fields) - 1)]
+        rows += [(first, field, words) for first, (field, words) in zip(names, fields.items(), strict=True)]
+    print_table(["record", "field", "value"], rows)
 
 
 def _fields(record: Any) -> dict[str, Any]:

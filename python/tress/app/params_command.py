@@ -26,7 +26,10 @@ def params(
 
         typer.echo(json.dumps([vars(row) for row in rows], indent=2))
     else:
-        _print_table(rows)
+        from tress.app.tables import print_table
+
+        heads = ["parameter", "default", "range", "unit", "what it does"]
+        print_table(heads, [(row.name, row.default, row.limits, row.unit, row.doc) for row in rows])
 
 
 def _refuse_unknown(stage: str | None, *, found: bool) -> None:
@@ -34,13 +37,3 @@ def _refuse_unknown(stage: str | None, *, found: bool) -> None:
 
     if not found:
         raise ParameterError(f"{stage} is no stage with parameters; `tress params` lists all.")
-
-
-def _print_table(rows: list) -> None:
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table("parameter", "default", "range", "unit", "what it does", box=None, pad_edge=False)
-    for row in rows:
-        table.add_row(row.name, str(row.default), row.limits, row.unit, row.doc)
-    Console().print(table)
