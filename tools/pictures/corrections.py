@@ -27,5 +27,5 @@ LANDMARKS: Final[tuple[str, Mapping[str, Any]]] = (
 
 DEPTHS: Final[tuple[str, Mapping[str, Any]]] = (
     "031",
-    {"strokes": [{"depth_m": 0.1, "width": 40, "points": [[400, 560], [430, 700], [480, 900]]}]},
+    {"strokes": [{"depth_m": 0.1, "width": 40, "points": [[350, 560], [390, 700], [460, 900]]}]},
 )

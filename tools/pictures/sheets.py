@@ -52,14 +52,16 @@ def with_strokes(photo: Array, strokes: Sequence[Mapping[str, Any]]) -> Array:
 
 
 def with_points(photo: Array, points: Mapping[str, Sequence[float]]) -> Array:
-    """The photo with named points marked in it."""
+    """The photo with named points marked in it; names of the person's right stand on the left."""
     drawn = photo.copy()
     size = max(photo.shape[:2]) / 250
+    font, scale = cv2.FONT_HERSHEY_SIMPLEX, size / 9
     for name, (x, y) in points.items():
         place = (round(x), round(y))
-        cv2.circle(drawn, place, round(2 * size), INK, -1, cv2.LINE_AA)
-        beside = (place[0] + round(3 * size), place[1] + round(size))
-        cv2.putText(drawn, name, beside, cv2.FONT_HERSHEY_SIMPLEX, size / 6, INK, max(1, round(size / 3)), cv2.LINE_AA)
+        cv2.circle(drawn, place, round(size), INK, -1, cv2.LINE_AA)
+        (width, _), _ = cv2.getTextSize(name, font, scale, 1)
+        left = place[0] - width - round(2 * size) if name.startswith("right") else place[0] + round(2 * size)
+        cv2.putText(drawn, name, (left, place[1] + round(size)), font, scale, INK, 1, cv2.LINE_AA)
     return drawn
 
 
