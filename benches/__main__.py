@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.table import Table
 from skimage import data
 
-from benches import bench_depth, bench_formats, bench_gabor, bench_matte, bench_raster
+from benches import bench_depth, bench_formats, bench_gabor, bench_matte, bench_nurbs, bench_raster
 from tress.base.report import Report
 from tress.methods.portrait.pipeline import reconstruct
 
@@ -49,6 +49,7 @@ BENCHES: dict[str, Callable[[], None]] = {
     "depth": bench_depth.main,
     "raster": bench_raster.main,
     "formats": bench_formats.main,
+    "nurbs": bench_nurbs.main,
 }
 
 if __name__ == "__main__":

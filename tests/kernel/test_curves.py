@@ -1,8 +1,10 @@
 """Curves against closed forms, laws, SciPy, openNURBS and Böhm's insertion."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from kernel.splines import boehm, parameters, random_curve, rhino_curve, scipy_curve
 
@@ -205,3 +207,119 @@ def test_questions_outside_the_domain_are_refused():
         curves.over_knots(circle(), knots=[0, 0, 0, 4, 4, 4])
     with pytest.raises(InputError, match="at most 3 times"):
         curves.refine(curve(np.zeros((4, 3))), knots=[0.5] * 4)
+
+
+def test_length_of_a_circle_and_parameters_at_lengths():
+    assert abs(curves.length(circle(2.0), accuracy=1e-12) - 4 * np.pi) < 1e-11
+    wanted = np.linspace(0, 2 * np.pi, 33)
+    at = curves.parameters_at(circle(), lengths=np.minimum(wanted, curves.length(circle())), accuracy=1e-12)
+    found = curves.evaluate(circle(), at=at)
+    assert np.allclose(found, np.column_stack([np.cos(wanted), np.sin(wanted), 0 * wanted]), atol=1e-10)
+
+
+@given(seed=SEEDS)
+def test_lengths_are_those_of_fine_polylines_and_parameters_come_back(seed):
+    made = random_curve(seed)
+    at = np.sort(parameters(made.domain, 9, seed=seed))
+    found = curves.lengths(made, at=at, accuracy=1e-10)
+    corners = made.knots[(made.knots > at[0]) & (made.knots < at[-1])]
+    fine = np.sort(np.concatenate([np.linspace(*made.domain, 20001), corners]))
+    chords = np.linalg.norm(np.diff(curves.evaluate(made, at=fine), axis=0), axis=1)
+    polyline = np.concatenate([[0], np.cumsum(chords)])
+    assert np.allclose(found, np.interp(at, fine, polyline), rtol=0, atol=1e-4 * polyline[-1])
+    assert abs(found[-1] - polyline[-1]) < 1e-5 * polyline[-1]
+    again = curves.lengths(made, at=curves.parameters_at(made, lengths=found, accuracy=1e-10), accuracy=1e-10)
+    assert np.allclose(again, found, rtol=0, atol=1e-9 * polyline[-1])
+
+
+@given(seed=SEEDS)
+@settings(max_examples=20, deadline=None)
+def test_a_curve_by_arc_length_is_the_same_path_at_unit_speed(seed):
+    steps = np.random.default_rng(seed).normal(0, 0.3, (8, 3))
+    made = curve(np.cumsum(steps + [1, 0, 0], axis=0), weights=3.0 ** steps[:, 0])
+    found = curves.by_arc_length(made, accuracy=1e-4)
+    total = curves.length(made)
+    assert found.deviation <= 1e-4
+    assert np.allclose(found.curve.domain, [0, total], rtol=0, atol=1e-5)
+    wanted = np.linspace(0, min(total, found.curve.domain[1]), 50)
+    expected = curves.evaluate(made, at=curves.parameters_at(made, lengths=wanted))
+    assert np.allclose(curves.evaluate(found.curve, at=wanted), expected, rtol=0, atol=5e-4)
+
+
+def test_an_arc_by_arc_length_has_unit_speed():
+    found = curves.by_arc_length(circle(), accuracy=1e-8).curve
+    speed = np.linalg.norm(curves.derivatives(found, at=np.linspace(*found.domain, 99))[:, 1], axis=1)
+    assert np.allclose(speed, 1, rtol=0, atol=1e-4)
+    with pytest.raises(InputError, match="has no length"):
+        curves.by_arc_length(curve(np.ones((4, 3))))
+    with pytest.raises(InputError, match="length 7 lies outside 0 to"):
+        curves.parameters_at(circle(), lengths=[7.0])
+
+
+def test_closest_points_of_a_circle():
+    angles = np.linspace(0.1, 6.2, 30)
+    outwards = np.column_stack([np.cos(angles), np.sin(angles), 0 * angles])
+    for radius in (0.3, 1.0, 5.0):
+        found = curves.closest_points(circle(), queries=radius * outwards + [0, 0, 0.4])
+        assert np.allclose(found.points, outwards, atol=1e-9)
+        assert np.allclose(found.distance, np.hypot(radius - 1, 0.4), atol=1e-14)
+    centre = curves.closest_points(circle(), queries=[[0, 0, 0]])
+    assert np.allclose(centre.distance, 1)
+
+
+@given(seed=SEEDS)
+def test_no_sample_is_closer_than_the_closest_point(seed):
+    made = random_curve(seed)
+    queries = np.random.default_rng(seed).uniform(-1.5, 1.5, (10, 3))
+    found = curves.closest_points(made, queries=queries)
+    samples = curves.evaluate(made, at=np.linspace(*made.domain, 2001))
+    brute = np.linalg.norm(samples - queries[:, None], axis=2).min(axis=1)
+    assert (found.distance <= brute + 1e-12).all()
+    assert np.allclose(curves.evaluate(made, at=found.parameter), found.points, atol=1e-13)
+    assert np.allclose(np.linalg.norm(found.points - queries, axis=1), found.distance, atol=1e-13)
+
+
+@given(seed=SEEDS)
+def test_a_fit_gives_back_the_curve_that_the_points_come_from(seed):
+    made = random_curve(seed, clamped=True, rational=False)
+    breaks = np.unique(made.knots)
+    at = np.concatenate([np.linspace(a, b, 20) for a, b in pairwise(breaks)])
+    for fix_ends in (True, False):
+        found = curves.fit(
+            curves.evaluate(made, at=at),
+            parameters=at,
+            count=len(made.points),
+            degree=made.degree,
+            knots=made.knots,
+            fix_ends=fix_ends,
+        )
+        assert np.allclose(found.points, made.points, rtol=0, atol=1e-10)
+
+
+def test_a_fit_is_the_least_squares_solution_of_numpy():
+    rng = np.random.default_rng(0)
+    points = np.cumsum(rng.normal(size=(60, 3)), axis=0)
+    found = curves.fit(points, count=9, fix_ends=False)
+    at = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    design = scipy_curve(curve(np.zeros((9, 3)), knots=found.knots)).design_matrix(at / at[-1], found.knots, 3)
+    expected = np.linalg.lstsq(design.toarray(), points, rcond=None)[0]
+    assert np.allclose(found.points, expected, rtol=0, atol=1e-10)
+    fixed = curves.fit(points, count=9)
+    assert np.allclose(fixed.points[[0, -1]], points[[0, -1]], atol=1e-15)
+
+
+def test_smoothness_straightens_and_settles_free_control_points():
+    rng = np.random.default_rng(1)
+    points = np.column_stack([np.linspace(0, 1, 200), rng.normal(0, 0.05, 200), np.zeros(200)])
+    bends = [
+        np.abs(np.diff(curves.fit(points, count=20, smoothness=s).points, 2, axis=0)).sum() for s in (0, 0.1, 10, 1e4)
+    ]
+    assert bends == sorted(bends, reverse=True)
+    gap = points[(points[:, 0] < 0.3) | (points[:, 0] > 0.7)]
+    knots = curves.uniform_knots(20, degree=3)
+    with pytest.raises(InputError, match="control point 9 is not determined"):
+        curves.fit(gap, parameters=gap[:, 0], knots=knots, count=20)
+    settled = curves.fit(gap, parameters=gap[:, 0], knots=knots, count=20, smoothness=0.1)
+    assert np.abs(settled.points[:, 1]).max() < 0.1
+    with pytest.raises(InputError, match="5 points were given to fit 9 control points"):
+        curves.fit(points[:5], count=9)

@@ -1,5 +1,7 @@
 """Surfaces against closed forms, laws and openNURBS."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -199,3 +201,60 @@ def test_flat_arrays_that_do_not_belong_together_are_refused():
 
 def test_half_circles_are_the_profile_of_the_sphere():
     assert np.allclose(np.linalg.norm(evaluate(HALF_CIRCLE, at=np.linspace(0, 2, 9)), axis=1), 1)
+
+
+def test_closest_points_of_a_sphere_and_of_a_plane():
+    rng = np.random.default_rng(0)
+    outwards = rng.normal(size=(40, 3))
+    outwards /= np.linalg.norm(outwards, axis=1, keepdims=True)
+    for radius in (0.2, 1.0, 3.0):
+        found = nurbs.closest_points(sphere(), queries=radius * outwards)
+        assert np.allclose(found.points, outwards, atol=1e-7)
+        assert np.allclose(found.distance, abs(radius - 1), atol=1e-14)
+    assert np.allclose(nurbs.closest_points(sphere(), queries=[[0, 0, 0], [0, 0, 2]]).distance, 1)
+    queries = rng.uniform(-1, 4, (40, 3))
+    found = nurbs.closest_points(plane(), queries=queries)
+    expected = np.clip(queries, [0, 0, 0.5], [2, 3, 0.5])
+    assert np.allclose(found.points, expected, atol=1e-12)
+
+
+@given(seed=SEEDS)
+def test_no_sample_is_closer_than_the_closest_point(seed):
+    rng = np.random.default_rng(seed)
+    wild = random_patch(seed)
+    across, along = np.meshgrid(*(np.linspace(-1, 1, n) for n in wild.points.shape[:2]), indexing="ij")
+    sheet = np.stack([across, along, 0 * along], axis=-1) + 0.15 * wild.points
+    made = Patch(sheet, wild.weights, wild.knots_u, wild.knots_v, wild.degree_u, wild.degree_v)
+    queries = rng.uniform(-1.5, 1.5, (5, 3))
+    found = nurbs.closest_points(made, queries=queries)
+    fractions = np.linspace(0, 1, 60)
+    samples = nurbs.evaluate_grid(made, u=fractions, v=fractions).reshape(-1, 3)
+    brute = np.linalg.norm(samples - queries[:, None], axis=2).min(axis=1)
+    assert (found.distance <= brute + 1e-12).all()
+    assert np.allclose(nurbs.evaluate(made, uv=found.uv), found.points, atol=1e-13)
+
+
+@given(seed=SEEDS)
+def test_a_fit_gives_back_the_patch_that_the_points_come_from(seed):
+    made = random_patch(seed, degrees=(3, 2), clamped=True, rational=False)
+    sides = []
+    for knots in (made.knots_u, made.knots_v):
+        breaks = np.unique(knots)
+        sides.append(np.concatenate([np.linspace(a, b, 8) for a, b in pairwise(breaks)]))
+    uv = np.stack(np.meshgrid(*sides, indexing="ij"), axis=-1).reshape(-1, 2)
+    points = nurbs.evaluate(made, uv=uv)
+    shape = {"counts": made.points.shape[:2], "degrees": (3, 2), "knots_u": made.knots_u, "knots_v": made.knots_v}
+    for fix_corners in (False, True):
+        found = nurbs.fit(points, uv=uv, fix_corners=fix_corners, **shape)
+        assert np.allclose(found.points, made.points, rtol=0, atol=1e-10)
+
+
+def test_a_grid_of_points_is_fitted_by_its_chord_lengths():
+    x, y = np.meshgrid(np.linspace(0, 1, 30), np.linspace(0, 1, 12), indexing="ij")
+    points = np.stack([x, y, 0.1 * np.sin(3 * x) * y], axis=-1)
+    uv = nurbs.grid_parameters(points)
+    assert np.allclose(uv[:, 0, 0], uv[:, -1, 0])
+    found = nurbs.fit(points.reshape(-1, 3), uv=uv.reshape(-1, 2), counts=(8, 4))
+    assert nurbs.closest_points(found, queries=points.reshape(-1, 3)).distance.max() < 2e-3
+    with pytest.raises(InputError, match="not determined"):
+        nurbs.fit(points[:, :1].reshape(-1, 3), uv=uv[:, :1].reshape(-1, 2), counts=(8, 4), knots_v=[0] * 4 + [1] * 4)

@@ -1,10 +1,11 @@
 //! The Python extension module `tress._core`: conversions and GIL release, no algorithm.
 //!
-//! One file a crate: `geom.rs` (with `nurbs.rs`), `strands.rs`, `fields.rs`, `image.rs`, `matting.rs`, `raster.rs`. Each has a `register` that adds its
+//! One file a crate: `geom.rs` (with `curves.rs` and `nurbs.rs`), `strands.rs`, `fields.rs`, `image.rs`, `matting.rs`, `raster.rs`. Each has a `register` that adds its
 //! functions to the module. Arrays come in as contiguous `PyReadonlyArray`s and go out as fresh NumPy arrays.
 
 use pyo3::prelude::*;
 
+mod curves;
 mod fields;
 mod geom;
 mod image;
@@ -16,6 +17,7 @@ mod strands;
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     geom::register(module)?;
+    curves::register(module)?;
     nurbs::register(module)?;
     strands::register(module)?;
     fields::register(module)?;

@@ -1,30 +1,42 @@
-//! Curves and surfaces of `tress-geom` for Python.
+//! Surfaces of `tress-geom` for Python.
 
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use tress_geom::nurbs::{self, Curve, FlatSurfaces, Jet, Knots, Query, Surface};
+use tress_geom::nurbs::{self, FitSettings, FlatSurfaces, Grid, Jet, Knots, PatchMesh, Query, Surface};
 
-type Numbers<'py> = PyReadonlyArray1<'py, f64>;
+pub(crate) type Numbers<'py> = PyReadonlyArray1<'py, f64>;
+pub(crate) type Triples<'py> = PyReadonlyArray2<'py, f64>;
+/// Knots and their degree.
+pub(crate) type KnotArrays<'py> = (Numbers<'py>, usize);
 type Indices<'py> = PyReadonlyArray1<'py, i64>;
-type Triples<'py> = PyReadonlyArray2<'py, f64>;
 type Pairs<'py> = PyReadonlyArray2<'py, f64>;
-type CurveArrays<'py> = (Triples<'py>, Numbers<'py>, Numbers<'py>, usize);
-type SurfaceArrays<'py> =
-    (Triples<'py>, Numbers<'py>, PyReadonlyArray2<'py, i64>, PyReadonlyArray2<'py, i64>, Numbers<'py>, Numbers<'py>);
-type NewCurve<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
+type Counts<'py> = PyReadonlyArray2<'py, i64>;
+type SurfaceArrays<'py> = (Triples<'py>, Numbers<'py>, Counts<'py>, Counts<'py>, Numbers<'py>, Numbers<'py>);
+/// Parameters, points and distances.
+type ClosestArrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>);
 type NewSurface<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, [Bound<'py, PyArray1<f64>>; 2]);
+/// Positions, normals, parameters, triangles, offsets of corners and of triangles, segments, errors.
+type MeshArrays<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<u32>>,
+    [Bound<'py, PyArray1<i64>>; 2],
+    Bound<'py, PyArray2<i64>>,
+    Bound<'py, PyArray1<f64>>,
+);
 
-/// Adds the functions of curves and surfaces to the module.
+/// Adds the functions of surfaces to the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_function(wrap_pyfunction!(nurbs_check_curve, module)?)?;
-    module.add_function(wrap_pyfunction!(nurbs_curve_points, module)?)?;
-    module.add_function(wrap_pyfunction!(nurbs_curve_derivatives, module)?)?;
-    module.add_function(wrap_pyfunction!(nurbs_curve_over, module)?)?;
-    module.add_function(wrap_pyfunction!(nurbs_curve_refined, module)?)?;
-    module.add_function(wrap_pyfunction!(nurbs_curve_clamped, module)?)?;
+    module.add_function(wrap_pyfunction!(nurbs_fit_surface, module)?)?;
+    module.add_function(wrap_pyfunction!(nurbs_surface_closest, module)?)?;
+    module.add_function(wrap_pyfunction!(nurbs_meshes_within, module)?)?;
+    module.add_function(wrap_pyfunction!(nurbs_meshes_uniform, module)?)?;
+    module.add_function(wrap_pyfunction!(nurbs_meshes_by_span, module)?)?;
+    module.add_function(wrap_pyfunction!(nurbs_segments_within, module)?)?;
     module.add_function(wrap_pyfunction!(nurbs_check_surfaces, module)?)?;
     module.add_function(wrap_pyfunction!(nurbs_grids, module)?)?;
     module.add_function(wrap_pyfunction!(nurbs_points, module)?)?;
@@ -34,57 +46,88 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(nurbs_surface_clamped, module)?)
 }
 
-/// Refuses arrays that make no curve.
+/// The surface nearest to points.
 #[pyfunction]
-fn nurbs_check_curve(arrays: CurveArrays<'_>) -> PyResult<()> {
-    curve(&arrays).map(|_| ())
-}
-
-/// Points at parameters.
-#[pyfunction]
-fn nurbs_curve_points<'py>(
+fn nurbs_fit_surface<'py>(
     py: Python<'py>,
-    arrays: CurveArrays<'py>,
-    at: Numbers<'py>,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let curve = curve(&arrays)?;
-    let at = parameters(&curve, &at)?;
-    Ok(rows(at.iter().map(|&t| curve.point(t).to_array())).into_pyarray(py))
+    knots_u: KnotArrays<'py>,
+    knots_v: KnotArrays<'py>,
+    parameters: Pairs<'py>,
+    points: Triples<'py>,
+    smoothness: f64,
+    fix_ends: bool,
+) -> PyResult<NewSurface<'py>> {
+    let (u, v) = (knots_of(&knots_u.0, knots_u.1)?, knots_of(&knots_v.0, knots_v.1)?);
+    let points = vectors(&points)?;
+    let parameters: Vec<[f64; 2]> = parameters.as_slice()?.chunks_exact(2).map(|p| [p[0], p[1]]).collect();
+    let settings = FitSettings { smoothness, fix_ends };
+    let fitted = py.detach(|| nurbs::fit_surface(u, v, &parameters, &points, settings)).map_err(refused)?;
+    Ok(new_surface(py, &fitted))
 }
 
-/// Points, first and second derivatives at parameters, in one row of nine.
+/// Parameters, point and distance of the closest points of the one surface.
 #[pyfunction]
-fn nurbs_curve_derivatives<'py>(
+fn nurbs_surface_closest<'py>(
     py: Python<'py>,
-    arrays: CurveArrays<'py>,
-    at: Numbers<'py>,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let curve = curve(&arrays)?;
-    let at = parameters(&curve, &at)?;
-    Ok(rows(at.iter().flat_map(|&t| curve.derivatives(t)).map(|d| d.to_array())).into_pyarray(py))
+    arrays: SurfaceArrays<'py>,
+    queries: Triples<'py>,
+) -> PyResult<ClosestArrays<'py>> {
+    let (surface, queries) = (one_surface(&arrays)?, vectors(&queries)?);
+    let found = py.detach(|| surface.closest(&queries)).map_err(refused)?;
+    let uv: Vec<[f64; 2]> = found.iter().map(|c| c.uv).collect();
+    let distances: Vec<f64> = found.iter().map(|c| c.distance).collect();
+    let points = rows(found.iter().map(|c| c.point.to_array()));
+    Ok((Array2::from(uv).into_pyarray(py), points.into_pyarray(py), distances.into_pyarray(py)))
 }
 
-/// The curve over other knots.
+/// Triangles within an accuracy of every surface, in space or in a picture.
 #[pyfunction]
-fn nurbs_curve_over<'py>(py: Python<'py>, arrays: CurveArrays<'py>, knots: Numbers<'py>) -> PyResult<NewCurve<'py>> {
-    let curve = curve(&arrays)?;
-    let degree = curve.knots().degree();
-    let count = knots.as_slice()?.len().saturating_sub(degree + 1);
-    let knots = Knots::new(degree, count, knots.as_slice()?.to_vec()).map_err(refused)?;
-    Ok(new_curve(py, &curve.over(knots).map_err(refused)?))
+#[pyo3(signature = (arrays, accuracy, projection=None))]
+fn nurbs_meshes_within<'py>(
+    py: Python<'py>,
+    arrays: SurfaceArrays<'py>,
+    accuracy: f64,
+    projection: Option<[[f64; 4]; 3]>,
+) -> PyResult<MeshArrays<'py>> {
+    let surfaces = surfaces(&arrays)?;
+    let projection = projection.map(|[x, y, w]| DMat4::from_cols_array_2d(&[x, y, [0.0; 4], w]).transpose());
+    let meshes = py.detach(|| nurbs::meshes(&surfaces, |_, surface| Grid::within(surface, accuracy, projection)));
+    Ok(mesh_arrays(py, &meshes.map_err(refused)?))
 }
 
-/// The curve with more knots.
+/// Triangles over equal intervals, as many along u and v as each surface is given.
 #[pyfunction]
-fn nurbs_curve_refined<'py>(py: Python<'py>, arrays: CurveArrays<'py>, more: Numbers<'py>) -> PyResult<NewCurve<'py>> {
-    let refined = curve(&arrays)?.refined(more.as_slice()?).map_err(refused)?;
-    Ok(new_curve(py, &refined))
+fn nurbs_meshes_uniform<'py>(
+    py: Python<'py>,
+    arrays: SurfaceArrays<'py>,
+    segments: Counts<'py>,
+) -> PyResult<MeshArrays<'py>> {
+    let (surfaces, segments) = (surfaces(&arrays)?, pairs_of_counts(&segments)?);
+    let meshes = py.detach(|| nurbs::meshes(&surfaces, |i, surface| Ok(Grid::uniform(surface, segments[i]))));
+    Ok(mesh_arrays(py, &meshes.map_err(refused)?))
 }
 
-/// The curve with clamped knots.
+/// Triangles over equal intervals of every span, as many along u and v as each surface is given.
 #[pyfunction]
-fn nurbs_curve_clamped<'py>(py: Python<'py>, arrays: CurveArrays<'py>) -> PyResult<NewCurve<'py>> {
-    Ok(new_curve(py, &curve(&arrays)?.clamped().map_err(refused)?))
+fn nurbs_meshes_by_span<'py>(
+    py: Python<'py>,
+    arrays: SurfaceArrays<'py>,
+    per_span: Counts<'py>,
+) -> PyResult<MeshArrays<'py>> {
+    let (surfaces, per_span) = (surfaces(&arrays)?, pairs_of_counts(&per_span)?);
+    let meshes = py.detach(|| nurbs::meshes(&surfaces, |i, surface| Ok(Grid::by_span(surface, per_span[i]))));
+    Ok(mesh_arrays(py, &meshes.map_err(refused)?))
+}
+
+/// The intervals along u and v that numbers of cells are best spent on.
+#[pyfunction]
+fn nurbs_segments_within<'py>(
+    py: Python<'py>,
+    arrays: SurfaceArrays<'py>,
+    cells: Indices<'py>,
+) -> PyResult<Bound<'py, PyArray2<i64>>> {
+    let (surfaces, cells) = (surfaces(&arrays)?, cells.as_slice()?);
+    Ok(Array2::from(py.detach(|| nurbs::segments_within(&surfaces, cells))).into_pyarray(py))
 }
 
 /// Refuses arrays that make no surfaces.
@@ -162,12 +205,6 @@ fn nurbs_surface_clamped<'py>(py: Python<'py>, arrays: SurfaceArrays<'py>) -> Py
     Ok(new_surface(py, &one_surface(&arrays)?.clamped().map_err(refused)?))
 }
 
-fn curve((points, weights, knots, degree): &CurveArrays<'_>) -> PyResult<Curve> {
-    let points = vectors(points)?;
-    let knots = Knots::new(*degree, points.len(), knots.as_slice()?.to_vec()).map_err(refused)?;
-    Curve::new(knots, &points, weights.as_slice()?).map_err(refused)
-}
-
 fn surfaces((points, weights, counts, degrees, knots_u, knots_v): &SurfaceArrays<'_>) -> PyResult<Vec<Surface>> {
     let flat = FlatSurfaces {
         points: points.as_slice()?,
@@ -190,34 +227,59 @@ fn asked(arrays: &SurfaceArrays<'_>, indices: &Indices<'_>, uv: &Pairs<'_>) -> P
     Ok((surfaces, queries))
 }
 
-fn parameters(curve: &Curve, at: &Numbers<'_>) -> PyResult<Vec<f64>> {
-    at.as_slice()?.iter().map(|&t| curve.knots().inside(t).map_err(refused)).collect()
-}
-
-fn new_curve<'py>(py: Python<'py>, curve: &Curve) -> NewCurve<'py> {
-    let (points, weights) = curve.control();
-    let knots = curve.knots().values().to_vec();
-    (triples(&points).into_pyarray(py), weights.into_pyarray(py), knots.into_pyarray(py))
-}
-
 fn new_surface<'py>(py: Python<'py>, surface: &Surface) -> NewSurface<'py> {
     let (points, weights) = surface.control();
     let knots = [surface.u(), surface.v()].map(|k| k.values().to_vec().into_pyarray(py));
     (triples(&points).into_pyarray(py), weights.into_pyarray(py), knots)
 }
 
-fn triples(points: &[DVec3]) -> Array2<f64> {
+fn mesh_arrays<'py>(py: Python<'py>, meshes: &[PatchMesh]) -> MeshArrays<'py> {
+    let (mut corners, mut triangles) = (vec![0i64], vec![0i64]);
+    for mesh in meshes {
+        corners.push(corners[corners.len() - 1] + mesh.positions.len() as i64);
+        triangles.push(triangles[triangles.len() - 1] + mesh.triangles.len() as i64);
+    }
+    let shifted = |(mesh, &first): (&PatchMesh, &i64)| {
+        mesh.triangles.iter().map(|t| t.map(|corner| corner + first as u32)).collect::<Vec<_>>()
+    };
+    let indices: Vec<[u32; 3]> = meshes.iter().zip(&corners).flat_map(shifted).collect();
+    let positions = rows(meshes.iter().flat_map(|m| m.positions.iter().copied())).into_pyarray(py);
+    let normals = rows(meshes.iter().flat_map(|m| m.normals.iter().copied())).into_pyarray(py);
+    let uv: Vec<[f64; 2]> = meshes.iter().flat_map(|m| m.uv.iter().copied()).collect();
+    let segments: Vec<[i64; 2]> = meshes.iter().map(|m| m.segments.map(|n| n as i64)).collect();
+    let errors: Vec<f64> = meshes.iter().map(|m| m.error.unwrap_or(f64::NAN)).collect();
+    (
+        positions,
+        normals,
+        Array2::from(uv).into_pyarray(py),
+        Array2::from(indices).into_pyarray(py),
+        [corners.into_pyarray(py), triangles.into_pyarray(py)],
+        Array2::from(segments).into_pyarray(py),
+        errors.into_pyarray(py),
+    )
+}
+
+fn pairs_of_counts(array: &Counts<'_>) -> PyResult<Vec<[usize; 2]>> {
+    Ok(array.as_slice()?.chunks_exact(2).map(|p| [p[0].max(1) as usize, p[1].max(1) as usize]).collect())
+}
+
+pub(crate) fn knots_of(knots: &Numbers<'_>, degree: usize) -> PyResult<Knots> {
+    let values = knots.as_slice()?.to_vec();
+    Knots::new(degree, values.len().saturating_sub(degree + 1), values).map_err(refused)
+}
+
+pub(crate) fn triples(points: &[DVec3]) -> Array2<f64> {
     rows(points.iter().map(|p| p.to_array()))
 }
 
-fn rows(values: impl Iterator<Item = [f64; 3]>) -> Array2<f64> {
+pub(crate) fn rows(values: impl Iterator<Item = [f64; 3]>) -> Array2<f64> {
     values.collect::<Vec<_>>().into()
 }
 
-fn vectors(array: &Triples<'_>) -> PyResult<Vec<DVec3>> {
+pub(crate) fn vectors(array: &Triples<'_>) -> PyResult<Vec<DVec3>> {
     Ok(array.as_slice()?.chunks_exact(3).map(DVec3::from_slice).collect())
 }
 
-fn refused(error: impl std::fmt::Display) -> PyErr {
+pub(crate) fn refused(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }

@@ -42,6 +42,23 @@ class Curve:
         return Curve(self.points[::-1], self.weights[::-1], reversed_knots(self.knots, low, high), self.degree)
 
 
+@dataclass(frozen=True, eq=False)
+class ClosestOnCurve:
+    """Closest points of Q queries: `parameter` (Q,), `points` (Q, 3), `distance` (Q,), all float64."""
+
+    parameter: Array
+    points: Array
+    distance: Array
+
+
+@dataclass(frozen=True, eq=False)
+class CurveByLength:
+    """A cubic whose parameter is the length from its start, and its greatest distance from the path it follows."""
+
+    curve: Curve
+    deviation: float
+
+
 def curve(points: Any, *, degree: int = 3, weights: Any = None, knots: Any = None) -> Curve:
     """A checked curve. Without `weights` they are 1; without `knots` they are clamped and uniform over 0 to 1.
 
@@ -101,6 +118,85 @@ def clamp(curve: Curve) -> Curve:
     return _curve(_answer(_core.nurbs_curve_clamped, curve), curve.degree)
 
 
+def closest_points(curve: Curve, *, queries: Any) -> ClosestOnCurve:
+    """The closest point of the curve for every query (Q, 3); where several are equally close, any one of them.
+
+    Newton's method on pieces of the spans, nearest piece first. **Limit:** a piece, one of 4 `degree` in a span,
+    is searched from its middle, so of two valleys of the distance in one piece the higher may be found.
+    """
+    points = checked(queries, name="queries", dtype=np.float64, shape=(None, 3))
+    return ClosestOnCurve(*_answer(_core.nurbs_curve_closest, curve, points))
+
+
+def lengths(curve: Curve, *, at: Any, accuracy: float = 1e-9) -> Array:
+    """(Q,) float64: length from the start of the curve to parameters `at` (Q,), to within about `accuracy`."""
+    return _answer(_core.nurbs_curve_lengths, curve, _numbers(at, "at"), _positive(accuracy, "accuracy"))
+
+
+def length(curve: Curve, *, accuracy: float = 1e-9) -> float:
+    """Length of the whole curve, to within about `accuracy`.
+
+    >>> length(curve([[0, 0, 0], [3, 4, 0]], degree=1))
+    5.0
+    """
+    return float(lengths(curve, at=[curve.domain[1]], accuracy=accuracy)[0])
+
+
+def parameters_at(curve: Curve, *, lengths: Any, accuracy: float = 1e-9) -> Array:
+    """(Q,) float64: the parameters at `lengths` (Q,) from the start of the curve, 0 to its length."""
+    wanted = _numbers(lengths, "lengths")
+    return _answer(_core.nurbs_curve_parameters, curve, wanted, _positive(accuracy, "accuracy"))
+
+
+def by_arc_length(curve: Curve, *, accuracy: float = 1e-6) -> CurveByLength:
+    """The same path as a cubic of weights 1 whose parameter is the length from its start, 0 to its length.
+
+    Spans are doubled until points at equal lengths are within `accuracy`; at 1,024 spans between two creases it stops,
+    and `deviation` tells what was reached. Raises `InputError` for a curve without length.
+    """
+    arrays, deviation = _answer(_core.nurbs_curve_by_arc_length, curve, _positive(accuracy, "accuracy"))
+    return CurveByLength(_curve(arrays, 3), deviation)
+
+
+def fit(
+    points: Any,
+    *,
+    count: int,
+    degree: int = 3,
+    parameters: Any = None,
+    knots: Any = None,
+    fix_ends: bool = True,
+    smoothness: float = 0.0,
+) -> Curve:
+    """The curve with `count` control points, of weights 1, that is nearest to `points` (Q, 3) in least squares.
+
+    Point i belongs to `parameters[i]`, by default from 0 to 1 in proportion to the chords. Without `knots` every span
+    gets about as many points. `fix_ends` puts the first and last control point on the first and last point (the knots
+    must then be clamped). `smoothness` weighs the squares of the second differences of the control points, as if
+    there were as many of them as points; it also settles control points that no point is near, which otherwise raise
+    `InputError`. **Limit:** parameters are taken as given, not improved.
+
+    >>> t = np.linspace(0, 1, 20)
+    >>> arch = np.column_stack([t, t * (1 - t), 0 * t])
+    >>> fit(arch, count=3, degree=2, parameters=t).points[1].round(9).tolist()
+    [0.5, 0.5, 0.0]
+    """
+    given = checked(points, name="points", dtype=np.float64, shape=(None, 3))
+    at = _core.nurbs_chord_parameters(given) if parameters is None else parameters
+    at = checked(at, name="parameters", dtype=np.float64, shape=(len(given),))
+    vector = knots_for(at, count=count, degree=degree) if knots is None else _numbers(knots, "knots")
+    if len(vector) != count + degree + 1:
+        raise InputError(f"{len(vector)} knots were given; {count + degree + 1} were expected.")
+    settings = (_not_negative(smoothness, "smoothness"), bool(fix_ends))
+    return _curve(_refused(_core.nurbs_fit_curve, (vector, degree), at, given, *settings), degree)
+
+
+def knots_for(parameters: Any, *, count: int, degree: int) -> Array:
+    """(count + degree + 1,) float64: clamped knots with about as many of the `parameters` (Q,) in every span."""
+    at = np.sort(_numbers(parameters, "parameters"))
+    return _refused(_core.nurbs_knots_for, at, checked_degree(degree), count)
+
+
 def uniform_knots(count: int, *, degree: int) -> Array:
     """(count + degree + 1,) float64: clamped knots over 0 to 1 with equally spaced inner knots.
 
@@ -131,10 +227,26 @@ def _answer(function: Any, curve: Curve, *rest: Any) -> Any:
         checked(curve.knots, name="knots", dtype=np.float64, shape=(None,)),
         checked_degree(curve.degree),
     )
+    return _refused(function, arrays, *rest)
+
+
+def _refused(function: Any, *arguments: Any) -> Any:
     try:
-        return function(arrays, *rest)
+        return function(*arguments)
     except ValueError as error:
         raise InputError(f"The curve cannot be used: {error}.") from error
+
+
+def _positive(value: float, name: str) -> float:
+    if not 0 < value < np.inf:
+        raise InputError(f"{name} is {value}; a positive number was expected.")
+    return float(value)
+
+
+def _not_negative(value: float, name: str) -> float:
+    if not 0 <= value < np.inf:
+        raise InputError(f"{name} is {value}; a number not below 0 was expected.")
+    return float(value)
 
 
 def checked_degree(degree: int) -> int:

@@ -13,7 +13,7 @@ import numpy as np
 from tress import _core  # type: ignore[attr-defined]
 from tress.base.errors import InputError
 from tress.kernel.arrays import checked
-from tress.kernel.curves import checked_degree, reversed_knots, uniform_knots
+from tress.kernel.curves import checked_degree, knots_for, reversed_knots, uniform_knots
 
 Array = np.ndarray[Any, Any]
 
@@ -99,6 +99,15 @@ class Patches:
         return Patch(points, weights, self.knots_u[knot_u], self.knots_v[knot_v], degree_u, degree_v)
 
 
+@dataclass(frozen=True, eq=False)
+class ClosestOnPatch:
+    """Closest points of Q queries: parameters `uv` (Q, 2), `points` (Q, 3), `distance` (Q,), all float64."""
+
+    uv: Array
+    points: Array
+    distance: Array
+
+
 def patch(
     points: Any,
     *,
@@ -124,25 +133,25 @@ def patch(
         degree_v,
     )
     made = _checked_patch(made)
-    _answer(_core.nurbs_check_surfaces, Patches.of([made]))
+    answer(_core.nurbs_check_surfaces, Patches.of([made]))
     return made
 
 
 def check(patches: Patch | Patches) -> None:
     """Raises `InputError` where the arrays make no patches, with the first patch and what is wrong with it."""
-    _answer(_core.nurbs_check_surfaces, patches)
+    answer(_core.nurbs_check_surfaces, patches)
 
 
 def evaluate_grid(patches: Patch | Patches, *, u: Any, v: Any) -> Array:
     """(S, m, n, 3) float64: points of every patch at all pairs of fractions (0 to 1) `u` (m,) and `v` (n,)."""
     fractions_u, fractions_v = _fractions(u, "u"), _fractions(v, "v")
-    found = _answer(_core.nurbs_grids, patches, fractions_u, fractions_v)
+    found = answer(_core.nurbs_grids, patches, fractions_u, fractions_v)
     return found.reshape(-1, len(fractions_u), len(fractions_v), 3)
 
 
 def evaluate(patches: Patch | Patches, *, uv: Any, index: Any = None) -> Array:
     """(Q, 3) float64: the points at parameters `uv` (Q, 2) of patches `index` (Q,), by default the first."""
-    return _answer(_core.nurbs_points, patches, *_queries(uv, index))
+    return answer(_core.nurbs_points, patches, *_queries(uv, index))
 
 
 def derivatives(patches: Patch | Patches, *, uv: Any, index: Any = None) -> Array:
@@ -150,7 +159,7 @@ def derivatives(patches: Patch | Patches, *, uv: Any, index: Any = None) -> Arra
 
     At a knot they are those of the span after it; at the end of the domain, of the span before.
     """
-    return _answer(_core.nurbs_derivatives, patches, *_queries(uv, index)).reshape(-1, 6, 3)
+    return answer(_core.nurbs_derivatives, patches, *_queries(uv, index)).reshape(-1, 6, 3)
 
 
 def normals(patches: Patch | Patches, *, uv: Any, index: Any = None) -> Array:
@@ -159,7 +168,7 @@ def normals(patches: Patch | Patches, *, uv: Any, index: Any = None) -> Array:
     Where a row or column of control points has collapsed to one point, the limit from inside; zero only where the patch
     has no area.
     """
-    return _answer(_core.nurbs_normals, patches, *_queries(uv, index))
+    return answer(_core.nurbs_normals, patches, *_queries(uv, index))
 
 
 def refine(patch: Patch, *, knots_u: Any = (), knots_v: Any = ()) -> Patch:
@@ -173,12 +182,65 @@ def refine(patch: Patch, *, knots_u: Any = (), knots_v: Any = ()) -> Patch:
     (4, 2, 3)
     """
     more = [checked(knots, name=name, dtype=np.float64, shape=(None,)) for knots, name in _named(knots_u, knots_v)]
-    return _patch(_answer(_core.nurbs_surface_refined, patch, *more), patch)
+    return _patch(answer(_core.nurbs_surface_refined, patch, *more), patch)
+
+
+def closest_points(patch: Patch, *, queries: Any) -> "ClosestOnPatch":
+    """The closest point of the patch for every query (Q, 3); where several are equally close, any one of them.
+
+    Newton's method on cells of the spans, nearest cell first. **Limit:** a cell, one of 2 degree_u x 2 degree_v in a
+    span, is searched from its middle, so of two valleys of the distance in one cell the higher may be found.
+    """
+    points = checked(queries, name="queries", dtype=np.float64, shape=(None, 3))
+    return ClosestOnPatch(*answer(_core.nurbs_surface_closest, patch, points))
+
+
+def fit(
+    points: Any,
+    *,
+    uv: Any,
+    counts: tuple[int, int],
+    degrees: tuple[int, int] = (3, 3),
+    knots_u: Any = None,
+    knots_v: Any = None,
+    fix_corners: bool = False,
+    smoothness: float = 0.0,
+) -> Patch:
+    """The patch with `counts` control points, of weights 1, that is nearest to `points` (Q, 3) in least squares.
+
+    Point i belongs to parameters `uv[i]` (`grid_parameters` makes them for a grid of points). Without knots the spans
+    along u and along v get about as many points each. `fix_corners` puts the four corners on the points nearest to them
+    in parameters (the knots must then be clamped). `smoothness` weighs the squares of the second differences of the
+    control points, as if there were as many of them as points; it also settles control points that no point is near,
+    which otherwise raise `InputError`.
+    """
+    given = checked(points, name="points", dtype=np.float64, shape=(None, 3))
+    at = checked(uv, name="uv", dtype=np.float64, shape=(len(given), 2))
+    vectors = []
+    for side, (knots, name) in enumerate(_named(knots_u, knots_v)):
+        vector = knots_for(at[:, side], count=counts[side], degree=degrees[side]) if knots is None else knots
+        vectors.append((_checked_knots(vector, name, counts[side], degrees[side]), degrees[side]))
+    if not 0 <= smoothness < np.inf:
+        raise InputError(f"smoothness is {smoothness}; a number not below 0 was expected.")
+    try:
+        fitted = _core.nurbs_fit_surface(*vectors, at, given, float(smoothness), bool(fix_corners))
+    except ValueError as error:
+        raise InputError(f"The patch cannot be fitted: {error}.") from error
+    points, weights, (knots_u, knots_v) = fitted
+    return Patch(points.reshape(*counts, 3), weights.reshape(counts), knots_u, knots_v, *degrees)
+
+
+def grid_parameters(points: Any) -> Array:
+    """(m, n, 2) float64: parameters, 0 to 1, of a grid of points (m, n, 3): chord lengths, averaged over its lines."""
+    grid = checked(points, name="points", dtype=np.float64, shape=(None, None, 3))
+    u = np.mean([_core.nurbs_chord_parameters(np.ascontiguousarray(line)) for line in grid.swapaxes(0, 1)], axis=0)
+    v = np.mean([_core.nurbs_chord_parameters(line) for line in grid], axis=0)
+    return np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1)
 
 
 def clamp(patch: Patch) -> Patch:
     """The same surface with clamped knots, so that its corners are its outermost control points."""
-    return _patch(_answer(_core.nurbs_surface_clamped, patch), patch)
+    return _patch(answer(_core.nurbs_surface_clamped, patch), patch)
 
 
 def _patch(arrays: Any, old: Patch) -> Patch:
@@ -187,7 +249,8 @@ def _patch(arrays: Any, old: Patch) -> Patch:
     return Patch(points.reshape(*counts, 3), weights.reshape(counts), knots_u, knots_v, old.degree_u, old.degree_v)
 
 
-def _answer(function: Any, patches: Patch | Patches, *rest: Any) -> Any:
+def answer(function: Any, patches: Patch | Patches, *rest: Any) -> Any:
+    """What the core's `function` says about the patches; its refusals as `InputError`."""
     many = Patches.of([_checked_patch(patches)]) if isinstance(patches, Patch) else patches
     arrays = (
         checked(many.points, name="points", dtype=np.float64, shape=(None, 3)),

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::basis::Sample;
-use super::{Jet, Knots, NurbsError, Surface};
+use super::{Grid, Jet, Knots, NurbsError, PatchMesh, Surface};
 
 /// Surfaces one after the other: all control points, weights and knots, with the sizes that tell them apart.
 #[derive(Debug, Clone, Copy)]
@@ -174,4 +174,26 @@ pub fn jets_at(surfaces: &[Surface], queries: &[Query]) -> Vec<Jet> {
 /// The unit normals at queries.
 pub fn normals_at(surfaces: &[Surface], queries: &[Query]) -> Vec<[f64; 3]> {
     queries.par_iter().with_min_len(256).map(|q| surfaces[q.surface].normal(q.u, q.v).to_array()).collect()
+}
+
+/// The triangles of many surfaces, each with grid lines of its own; errors name the first surface that has none.
+pub fn meshes(
+    surfaces: &[Surface],
+    grid: impl Fn(usize, &Surface) -> Result<Grid, NurbsError> + Sync,
+) -> Result<Vec<PatchMesh>, BatchError> {
+    let mesh = |(index, surface): (usize, &Surface)| {
+        let mesh = grid(index, surface).and_then(|grid| PatchMesh::new(surface, &grid));
+        mesh.map_err(|source| BatchError::Surface { surface: index, source })
+    };
+    // Collected in full before the first error is taken, so that it is the same one on any number of threads.
+    let meshes: Vec<_> = surfaces.par_iter().enumerate().map(mesh).collect();
+    meshes.into_iter().collect()
+}
+
+/// For every surface the intervals along u and v that a number of cells is best spent on.
+pub fn segments_within(surfaces: &[Surface], cells: &[i64]) -> Vec<[i64; 2]> {
+    let best = |(surface, &cells): (&Surface, &i64)| {
+        surface.segments_within(usize::try_from(cells).unwrap_or(1).max(1)).map(|n| n as i64)
+    };
+    surfaces.par_iter().zip(cells).map(best).collect()
 }

@@ -32,6 +32,11 @@ impl Curve {
         self.points.iter().map(|&p| (projected(p), p.w)).unzip()
     }
 
+    /// Control points times their weights, and the weights.
+    pub(crate) fn homogeneous(&self) -> &[DVec4] {
+        &self.points
+    }
+
     /// The point at a parameter of the domain.
     pub fn point(&self, t: f64) -> DVec3 {
         let sample = Sample::new(&self.knots, t);
@@ -40,7 +45,12 @@ impl Curve {
 
     /// The point and the first and second derivatives at a parameter of the domain.
     pub fn derivatives(&self, t: f64) -> [DVec3; 3] {
-        let (span, degree) = (self.knots.span(t), self.knots.degree());
+        self.derivatives_on(self.knots.span(t), t)
+    }
+
+    /// The same as seen from one span, which tells the sides of a crease apart.
+    pub(crate) fn derivatives_on(&self, span: usize, t: f64) -> [DVec3; 3] {
+        let degree = self.knots.degree();
         let rows = basis::derivatives(&self.knots, span, t);
         let [h, h1, h2] = rows.map(|row| blend(&self.points[span - degree..], &row, degree));
         let point = projected(h);

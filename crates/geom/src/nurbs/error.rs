@@ -88,4 +88,31 @@ pub enum NurbsError {
     /// The new knots do not contain the old ones.
     #[error("the new knots lack the old knot {0}")]
     KnotLost(f64),
+    /// A projection needs control points in front of the camera.
+    #[error("a control point lies behind the camera")]
+    BehindCamera,
+    /// A length along a curve is negative or exceeds the curve.
+    #[error("length {value} lies outside 0 to {total}, the length of the curve")]
+    OutsideLength {
+        /// The length asked for.
+        value: f64,
+        /// Length of the curve.
+        total: f64,
+    },
+    /// A curve whose points all coincide has no parametrisation by length.
+    #[error("the curve has no length")]
+    NoLength,
+    /// A fit needs at least as many points as control points.
+    #[error("{points} points were given to fit {count} control points; at least {count} were expected")]
+    TooFewToFit {
+        /// Number of points.
+        points: usize,
+        /// Number of control points.
+        count: usize,
+    },
+    /// The points leave a control point free.
+    #[error(
+        "control point {0} is not determined by the points; give more points near it, fewer control points, or smoothness"
+    )]
+    Undetermined(usize),
 }

@@ -27,8 +27,16 @@ impl Refinement {
     /// # Errors
     /// A domain that exceeds the old one; an old knot inside the new domain that the new knots hold less often.
     pub fn new(old: &Knots, new: &Knots) -> Result<Self, NurbsError> {
+        Self::of(old, new, &(0..new.count()).collect::<Vec<_>>())
+    }
+
+    /// The same for some of the new control points alone.
+    ///
+    /// # Errors
+    /// As [`Refinement::new`].
+    pub(crate) fn of(old: &Knots, new: &Knots, indices: &[usize]) -> Result<Self, NurbsError> {
         refuse_lost_knots(old, new)?;
-        let (first, shares) = (0..new.count()).map(|j| discrete_b_splines(old, new, j)).unzip();
+        let (first, shares) = indices.iter().map(|&j| discrete_b_splines(old, new, j)).unzip();
         Ok(Self { degree: old.degree(), first, shares })
     }
 

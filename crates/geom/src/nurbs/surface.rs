@@ -75,7 +75,11 @@ impl Surface {
 
     /// The point and its derivatives at parameters of the domain.
     pub fn jet(&self, u: f64, v: f64) -> Jet {
-        let (span_u, span_v) = (self.u.span(u), self.v.span(v));
+        self.jet_on([self.u.span(u), self.v.span(v)], u, v)
+    }
+
+    /// The same as seen from one span along u and one along v, which tells the sides of a crease apart.
+    pub(crate) fn jet_on(&self, [span_u, span_v]: [usize; 2], u: f64, v: f64) -> Jet {
         let [u0, u1, u2] = basis::derivatives(&self.u, span_u, u);
         let [v0, v1, v2] = basis::derivatives(&self.v, span_v, v);
         let (first_u, first_v) = (span_u - self.u.degree(), span_v - self.v.degree());
