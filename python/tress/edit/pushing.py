@@ -16,7 +16,8 @@ from tress.model.strip_grid import StripGrid
 
 Array = np.ndarray[Any, Any]
 
-GROWTH = 0.2  # of the steps: in the folds of ears, even steps lead from wall to wall
+# Even steps lead from wall to wall in the folds of ears; later ones grow.
+EVEN_ROUNDS, GROWTH = 10, 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +56,7 @@ def pushed(
         if not asking.any():
             return Pushed(points, iteration, True)
         if iteration < max_iterations:
-            points += (1 + GROWTH * iteration) * _largest_share(
+            points += (1 + GROWTH * max(iteration - EVEN_ROUNDS, 0)) * _largest_share(
                 weights[rows[asking]], wanted[asking], count=len(points)
             )
         restless = np.unique(grid.strip[rows[asking]])

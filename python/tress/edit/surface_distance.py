@@ -14,7 +14,7 @@ from tress.model.mesh import Mesh
 
 Array = np.ndarray[Any, Any]
 
-DENSITY = 2  # samples a degree and span: twice as dense as what is shown
+DENSITY, FINE_DENSITY = 2, 6  # samples a degree and span, where strips are shown with one
 ON_SURFACE_M = 1e-7
 MIN_COSINE = 0.05
 
