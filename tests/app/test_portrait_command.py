@@ -47,7 +47,8 @@ def test_every_stage_leaves_a_picture_and_a_result(finished):
         name = finished / "stages" / f"{number:02d}_{stage.name}"
         picture = np.asarray(Image.open(name.with_suffix(".png")))
         assert picture.std() > 1, f"{name} shows nothing"
-        load_record(name.with_suffix(".npz"))
+        if stage is not STAGES[-1]:  # no stage begins after the last
+            load_record(name.with_suffix(".npz"))
 
 
 def test_json_lists_what_was_written(finished):

@@ -1,5 +1,7 @@
 """The pictures of the stages show what they are given."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from tress.methods.portrait.pictures import (
@@ -9,6 +11,7 @@ from tress.methods.portrait.pictures import (
     mesh_picture,
     orientation_picture,
     strands_picture,
+    thinned,
 )
 
 
@@ -25,15 +28,14 @@ def test_a_horizontal_strand_fills_its_row_and_nearer_ones_lie_over_it():
 
 
 def test_of_many_strands_some_are_drawn():
-    row = np.arange(40.0)
-    points = np.stack([np.tile([0.5, 8.5], 40), np.repeat(row + 0.5, 2)], axis=1)
-    colors = np.full((80, 3), 200, np.uint8)
-    offsets = np.arange(0, 81, 2)
-    drawn = [
-        strands_picture(points, offsets=offsets, colors=colors, shape=(40, 9), most_strands=most)[:, 4].any(axis=1)
-        for most in (40, 10)
-    ]
-    assert (int(drawn[0].sum()), int(drawn[1].sum())) == (40, 10)
+    lengths = np.random.default_rng(0).integers(2, 9, 41)
+    offsets = np.concatenate([[0], np.cumsum(lengths)])
+    every, own = thinned(offsets, most_strands=100)
+    assert np.array_equal(every, np.arange(offsets[-1])) and np.array_equal(own, offsets)
+    fewer, own = thinned(offsets, most_strands=10)
+    assert len(own) - 1 <= 10
+    for strand, (begin, end) in zip(range(0, 41, 5), pairwise(own), strict=True):
+        assert np.array_equal(fewer[begin:end], np.arange(offsets[strand], offsets[strand + 1]))
 
 
 def test_strands_outside_the_picture_are_cut_off():

@@ -7,7 +7,10 @@ foreign file can do no harm.
 
 import dataclasses
 import importlib
+import io
 import json
+import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -19,6 +22,9 @@ from tress.io.archive import DAMAGE, check_size
 
 _TREE = "__tree__"
 _PLAIN = (str, int, float, bool, type(None))
+_SAMPLE_BYTES = 16384
+_WORTHWHILE = 0.7
+"""Compressed arrays are at most this part as long."""
 
 
 def save_record(path: Path, record: Any, *, header: Mapping[str, str] | None = None) -> None:
@@ -30,9 +36,19 @@ def save_record(path: Path, record: Any, *, header: Mapping[str, str] | None = N
     arrays: dict[str, np.ndarray] = {}
     tree = _tree(record, "record", arrays)
     words = json.dumps({"header": dict(header or {}), "tree": tree})
-    named: dict[str, Any] = {_TREE: np.array(words), **arrays}
-    with path.open("wb") as file:
-        np.savez(file, **named)
+    with zipfile.ZipFile(path, "w") as archive:
+        for entry, values in {_TREE: np.array(words), **arrays}.items():
+            file = io.BytesIO()
+            np.lib.format.write_array(file, np.asanyarray(values), allow_pickle=False)
+            method = zipfile.ZIP_DEFLATED if _is_compressible(file.getbuffer()) else zipfile.ZIP_STORED
+            archive.writestr(zipfile.ZipInfo(f"{entry}.npy"), file.getbuffer(), method, compresslevel=1)
+
+
+def _is_compressible(data: memoryview) -> bool:
+    """Whether compression is worth its time, told from three samples: maps that are mostly empty, not coordinates."""
+    places = [len(data) * part // 4 for part in (1, 2, 3)]
+    sample = b"".join(data[place : place + _SAMPLE_BYTES] for place in places)
+    return len(zlib.compress(sample, 1)) < _WORTHWHILE * len(sample)
 
 
 def load_record(path: Path) -> tuple[Any, dict[str, str]]:

@@ -27,9 +27,12 @@ def layers_picture(pixels: Picture, *, label: NDArray[np.uint8]) -> Picture:
 
 def matte_picture(alpha: NDArray[np.float32], *, foreground: NDArray[np.float32]) -> Picture:
     """Beside each other: alpha, and the hair alone on neutral grey. `foreground` (H, W, 3) linear."""
-    cut_out = alpha[..., None] * foreground + (1 - alpha[..., None]) * _GREY
+    cut_out = np.empty((*alpha.shape, 3), np.uint8)
+    cut_out[:] = linear_to_srgb8(np.array(_GREY))
+    shown, share = alpha > 0, alpha[alpha > 0, None]
+    cut_out[shown] = linear_to_srgb8(share * foreground[shown] + (1 - share) * _GREY)
     grey = np.repeat(np.rint(alpha * 255).astype(np.uint8)[..., None], 3, axis=2)
-    return np.hstack([grey, linear_to_srgb8(cut_out)])
+    return np.hstack([grey, cut_out])
 
 
 def orientation_picture(angle: NDArray[np.floating], *, confidence: NDArray[np.floating]) -> Picture:
@@ -47,15 +50,15 @@ def strands_picture(
     colors: NDArray[np.uint8],
     shape: tuple[int, int],
     depth: NDArray[np.floating] | None = None,
-    most_strands: int = 6000,
 ) -> Picture:
     """Polylines `points` (N, 2) px on black, each segment in the colour (N, 3) of its first point.
 
-    With `depth` (N,) towards the camera, nearer segments lie over farther ones; otherwise later over earlier. Of more
-    than `most_strands`, every so many-th is drawn.
+    With `depth` (N,) towards the camera, nearer segments lie over farther ones; otherwise later over earlier.
     """
     picture = np.zeros((*shape, 3), np.uint8)
-    first = _first_points(np.asarray(offsets, np.int64), most_strands)
+    last = np.zeros(len(points), np.bool_)
+    last[np.asarray(offsets[1:]) - 1] = True
+    first = np.flatnonzero(~last)
     if depth is not None:
         first = first[np.argsort(depth[first], kind="stable")]
     step = points[first + 1] - points[first]
@@ -68,12 +71,17 @@ def strands_picture(
     return picture
 
 
-def _first_points(offsets: NDArray[np.int64], most_strands: int) -> NDArray[np.int64]:
-    """The first point of every segment of at most `most_strands` strands, evenly chosen."""
-    strands = np.arange(0, len(offsets) - 1, max(1, -(-(len(offsets) - 1) // most_strands)))
-    segments = offsets[strands + 1] - offsets[strands] - 1
-    start = np.repeat(offsets[strands] - np.cumsum(segments) + segments, segments)
-    return start + np.arange(segments.sum())
+def thinned(offsets: NDArray[np.integer], *, most_strands: int = 6000) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Every so many-th strand, at most so many: the indices of their points, and their own offsets.
+
+    >>> [part.tolist() for part in thinned(np.array([0, 2, 5, 7]), most_strands=2)]
+    [[0, 1, 5, 6], [0, 2, 4]]
+    """
+    begins = np.asarray(offsets, np.int64)
+    strands = np.arange(0, len(begins) - 1, max(1, -(-(len(begins) - 1) // most_strands)))
+    counts = begins[strands + 1] - begins[strands]
+    kept = np.concatenate([np.zeros(1, np.int64), np.cumsum(counts)])
+    return np.arange(kept[-1]) + np.repeat(begins[strands] - kept[:-1], counts), kept
 
 
 def depth_colors(depth: NDArray[np.floating]) -> NDArray[np.uint8]:

@@ -173,12 +173,14 @@ def run_strands(work: Work, report: Report) -> GrownHair:
 def show_strands(work: Work) -> Picture:
     """The strands from the photo's view, near over far, in the colours that they grew with."""
     grown: GrownHair = work["strands"]
+    drawn, offsets = pictures.thinned(grown.offsets)
+    points = grown.points[drawn]
     return pictures.strands_picture(
-        work["head"].fitted.project(grown.points),
-        offsets=grown.offsets,
-        colors=linear_to_srgb8(grown.color),
+        work["head"].fitted.project(points),
+        offsets=offsets,
+        colors=linear_to_srgb8(grown.color[drawn]),
         shape=work.pixels.shape[:2],
-        depth=grown.points[:, 2],
+        depth=points[:, 2],
     )
 
 
