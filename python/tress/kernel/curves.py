@@ -122,7 +122,7 @@ def closest_points(curve: Curve, *, queries: Any) -> ClosestOnCurve:
     """The closest point of the curve for every query (Q, 3); where several are equally close, any one of them.
 
     Newton's method on pieces of the spans, nearest piece first. **Limit:** a piece, one of 4 `degree` in a span,
-    is searched from its middle, so of two valleys of the distance in one piece the higher may be found.
+    is searched from one start, so of two valleys of the distance in one piece the higher may be found.
     """
     points = checked(queries, name="queries", dtype=np.float64, shape=(None, 3))
     return ClosestOnCurve(*_answer(_core.nurbs_curve_closest, curve, points))

@@ -189,7 +189,7 @@ def closest_points(patch: Patch, *, queries: Any) -> "ClosestOnPatch":
     """The closest point of the patch for every query (Q, 3); where several are equally close, any one of them.
 
     Newton's method on cells of the spans, nearest cell first. **Limit:** a cell, one of 2 degree_u x 2 degree_v in a
-    span, is searched from its middle, so of two valleys of the distance in one cell the higher may be found.
+    span, is searched from one start, so of two valleys of the distance in one cell the higher may be found.
     """
     points = checked(queries, name="queries", dtype=np.float64, shape=(None, 3))
     return ClosestOnPatch(*answer(_core.nurbs_surface_closest, patch, points))

@@ -12,6 +12,8 @@ use super::{Curve, NurbsError, Refinement};
 use crate::Aabb;
 
 const MAX_STEPS: usize = 40;
+/// Where on a piece Newton's method may start: at the nearest of these.
+pub(crate) const STARTS: [f64; 5] = [0.5, 0.0, 0.25, 0.75, 1.0];
 /// Pieces of a span, by degree: so short that the distance has hardly two valleys on one.
 const PIECES_PER_DEGREE: usize = 4;
 
@@ -66,11 +68,14 @@ impl Curve {
 
     /// Newton's steps on the square of the distance, along the piece; Gauss's where it is not convex.
     fn closest_on_piece(&self, [low, high]: [f64; 2], query: DVec3) -> ClosestOnCurve {
-        let mut t = 0.5 * (low + high);
         // The piece's own span, also at its ends: beyond a crease the slope is another.
-        let span = self.knots().span(t);
+        let span = self.knots().span(0.5 * (low + high));
         let at = |t: f64| self.derivatives_on(span, t);
-        let mut best = at(t);
+        let starts = STARTS.map(|part| low + part * (high - low)).map(|t| (t, at(t)));
+        let nearer = |a: &&(f64, [DVec3; 3]), b: &&(f64, [DVec3; 3])| {
+            a.1[0].distance_squared(query).total_cmp(&b.1[0].distance_squared(query))
+        };
+        let (mut t, mut best) = *starts.iter().min_by(nearer).unwrap_or(&starts[0]);
         for _ in 0..MAX_STEPS {
             let (away, [_, first, second]) = (best[0] - query, best);
             let (slope, speed_sq) = (away.dot(first), first.length_squared());

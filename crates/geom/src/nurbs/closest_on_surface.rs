@@ -6,7 +6,7 @@
 use glam::{DMat2, DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::closest_on_curve::{bounds, pieces_of_spans};
+use super::closest_on_curve::{STARTS, bounds, pieces_of_spans};
 use super::curve::projected;
 use super::net::{Lines, Net};
 use super::{Jet, NurbsError, Surface};
@@ -86,7 +86,10 @@ impl Surface {
 
     /// Newton's steps on the square of the distance, held to the cell.
     fn closest_on_cell(&self, cell: &Cell, query: DVec3) -> ClosestOnSurface {
-        let mut at = 0.5 * (cell.low + cell.high);
+        let pairs = STARTS.into_iter().flat_map(|u| STARTS.map(|v| DVec2::new(u, v)));
+        let starts = pairs.map(|part| cell.low + part * (cell.high - cell.low));
+        let far = |at: &DVec2| self.point(at.x, at.y).distance_squared(query);
+        let mut at = starts.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(cell.low);
         let mut jet = self.jet_on(cell.spans, at.x, at.y);
         for _ in 0..MAX_STEPS {
             let steps = descents(&jet, query, at, cell);
