@@ -1,11 +1,11 @@
 //! `tress-raster` for Python.
 
 use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tress_raster::{GBuffer, ProjectedScene, ProjectedVertex, RasterError, SegmentFragments};
+use tress_raster::{AlphaPicture, GBuffer, ProjectedScene, ProjectedVertex, RasterError, SegmentFragments};
 
 type Floats<'py> = PyReadonlyArray1<'py, f32>;
 type Rows<'py> = PyReadonlyArray2<'py, f32>;
@@ -17,7 +17,9 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(raster_composite, module)?)?;
     module.add_function(wrap_pyfunction!(raster_strand_picture, module)?)?;
     module.add_function(wrap_pyfunction!(raster_visible_weight, module)?)?;
-    module.add_function(wrap_pyfunction!(raster_fit_colors, module)?)
+    module.add_function(wrap_pyfunction!(raster_fit_colors, module)?)?;
+    module.add_function(wrap_pyfunction!(raster_alpha_coverage, module)?)?;
+    module.add_function(wrap_pyfunction!(raster_alpha_scale, module)?)
 }
 
 /// Projected vertices (N, 4) of points (N, 3).
@@ -128,6 +130,20 @@ fn raster_fit_colors<'py>(
     let pixel_weight = pixel_weight.as_slice()?;
     let found = py.detach(|| tress_raster::fit_colors(&fragments, colors, target, pixel_weight, iterations, most));
     Ok(Array2::from(found).into_pyarray(py))
+}
+
+/// Share of a picture (H, W) that passes an alpha test.
+#[pyfunction]
+fn raster_alpha_coverage(py: Python<'_>, alpha: Rows<'_>, threshold: f32) -> PyResult<f64> {
+    let (texels, width) = (alpha.as_slice()?, alpha.shape()[1]);
+    py.detach(|| Ok(AlphaPicture::new(texels, width)?.coverage(threshold, 1.0))).map_err(refused)
+}
+
+/// Scale of alpha (H, W) with which a wanted share passes the test.
+#[pyfunction]
+fn raster_alpha_scale(py: Python<'_>, alpha: Rows<'_>, threshold: f32, wanted: f64) -> PyResult<f32> {
+    let (texels, width) = (alpha.as_slice()?, alpha.shape()[1]);
+    py.detach(|| Ok(AlphaPicture::new(texels, width)?.scale_for_coverage(threshold, wanted))).map_err(refused)
 }
 
 fn segment_fragments<'a>(

@@ -4,6 +4,7 @@
 //! sorted into tiles, and every tile is rasterised by one core on its own: 16 samples a pixel, each with its own depth
 //! test. What every pixel sees is then merged into fragments. No result depends on the number of cores.
 
+mod alpha_coverage;
 mod bins;
 mod composite;
 mod error;
@@ -20,6 +21,7 @@ mod strand_points;
 mod tile;
 mod triangle;
 
+pub use alpha_coverage::AlphaPicture;
 pub use composite::{composite, strand_picture};
 pub use error::RasterError;
 pub use fit::fit_colors;
