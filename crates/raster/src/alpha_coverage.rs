@@ -112,33 +112,36 @@ mod tests {
     }
 
     #[test]
-    fn a_ramp_passes_beyond_the_threshold() {
+    fn a_ramp_passes_beyond_the_threshold() -> Result<(), RasterError> {
         let alpha = ramp(64);
-        let picture = AlphaPicture::new(&alpha, 64).unwrap();
+        let picture = AlphaPicture::new(&alpha, 64)?;
         for (threshold, scale, expected) in [(0.5, 1.0, 0.5), (0.25, 1.0, 0.75), (0.5, 2.0, 0.75), (0.5, 0.5, 0.0)] {
             let found = picture.coverage(threshold, scale);
             assert!((found - expected).abs() < 1e-9, "{threshold} {scale}: {found}");
         }
+        Ok(())
     }
 
     #[test]
-    fn the_scale_gives_the_coverage() {
+    fn the_scale_gives_the_coverage() -> Result<(), RasterError> {
         let alpha = ramp(64);
-        let picture = AlphaPicture::new(&alpha, 64).unwrap();
+        let picture = AlphaPicture::new(&alpha, 64)?;
         for wanted in [0.1, 0.5, 0.9] {
             let scale = picture.scale_for_coverage(0.5, wanted);
             assert!((picture.coverage(0.5, scale) - wanted).abs() < 1.0 / 256.0, "{wanted}: {scale}");
             assert!((f64::from(scale) - 0.5 / (1.0 - wanted)).abs() < 0.05 / (1.0 - wanted), "{wanted}: {scale}");
         }
+        Ok(())
     }
 
     #[test]
-    fn nothing_and_all_are_kept() {
+    fn nothing_and_all_are_kept() -> Result<(), RasterError> {
         for alpha in [0.0, 1.0] {
             let texels = [alpha; 12];
-            let picture = AlphaPicture::new(&texels, 4).unwrap();
+            let picture = AlphaPicture::new(&texels, 4)?;
             assert_eq!(picture.coverage(0.5, 1.0), f64::from(alpha));
         }
+        Ok(())
     }
 
     #[test]
