@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -48,6 +48,7 @@ class Screen:
 def screen(*, verbose: int, quiet: bool, json_output: bool) -> Iterator[Screen]:
     """A screen whose progress bars live as long as the body; warnings go to standard error unless `quiet`."""
     errors = Console(stderr=True, quiet=quiet or json_output)
+    moving = errors.is_terminal and not (quiet or json_output)
     bars = Progress(
         SpinnerColumn(),
         TextColumn("{task.description:<14}"),
@@ -55,9 +56,9 @@ def screen(*, verbose: int, quiet: bool, json_output: bool) -> Iterator[Screen]:
         TimeElapsedColumn(),
         console=errors,
         transient=True,
-        disable=not errors.is_terminal or quiet or json_output,
+        disable=not moving,
     )
-    with bars:
+    with bars if moving else nullcontext():  # older Rich prints an empty line at the end of bars that it never showed
         report = Report(_Listener(bars, errors, verbose=verbose))
         yield Screen(report, Console(quiet=quiet), verbose, json_output)
 
