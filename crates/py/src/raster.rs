@@ -15,6 +15,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(raster_project, module)?)?;
     module.add_function(wrap_pyfunction!(raster_gbuffer, module)?)?;
     module.add_function(wrap_pyfunction!(raster_composite, module)?)?;
+    module.add_function(wrap_pyfunction!(raster_interpolated, module)?)?;
     module.add_function(wrap_pyfunction!(raster_strand_picture, module)?)?;
     module.add_function(wrap_pyfunction!(raster_visible_weight, module)?)?;
     module.add_function(wrap_pyfunction!(raster_fit_colors, module)?)?;
@@ -93,6 +94,21 @@ fn raster_strand_picture<'py>(
     let fragments = segment_fragments(&pixel_offsets, &kind, &primitive, &parameter, &weight)?;
     let colors = colors.as_slice()?.as_chunks().0;
     Ok(Array2::from(py.detach(|| tress_raster::strand_picture(&fragments, colors))).into_pyarray(py))
+}
+
+/// Values (N, C) of the points at the places `t` (K,) from the points `first` (K,) on: (K, C).
+#[pyfunction]
+fn raster_interpolated<'py>(
+    py: Python<'py>,
+    first: PyReadonlyArray1<'py, i32>,
+    t: Floats<'py>,
+    values: Rows<'py>,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let (rows, channels) = (first.as_slice()?.len(), values.as_array().ncols());
+    let (first, t, values) = (first.as_slice()?, t.as_slice()?, values.as_slice()?);
+    let found = py.detach(|| tress_raster::interpolated(first, t, values, channels));
+    let found = Array2::from_shape_vec((rows, channels), found).map_err(|e| PyValueError::new_err(e.to_string()))?;
+    Ok(found.into_pyarray(py))
 }
 
 /// How much every point shows, in pixels.

@@ -4,6 +4,9 @@ use rayon::prelude::*;
 
 use crate::splat::SegmentFragments;
 
+/// Fragments that one core takes at a time.
+const CHUNK: usize = 4096;
+
 /// Sums of weight times colour over the fragments of every pixel: premultiplied RGBA, `pixels` x 4.
 ///
 /// `rgba` has four numbers a fragment: colour, not premultiplied, and the share of its weight that counts. Fragments of a
@@ -41,4 +44,21 @@ pub fn strand_picture(fragments: &SegmentFragments, colors: &[[f32; 3]]) -> Vec<
             sum
         })
         .collect()
+}
+
+/// Values of the points, `channels` numbers each, at the places `t` from the points `first` to those after them.
+pub fn interpolated(first: &[i32], t: &[f32], values: &[f32], channels: usize) -> Vec<f32> {
+    let mut found = vec![0.0; first.len() * channels];
+    found.par_chunks_mut(channels * CHUNK).zip(first.par_chunks(CHUNK).zip(t.par_chunks(CHUNK))).for_each(
+        |(found, (first, t))| {
+            for ((found, first), t) in found.chunks_exact_mut(channels).zip(first).zip(t) {
+                let begin = *first as usize * channels;
+                let (a, b) = values[begin..begin + 2 * channels].split_at(channels);
+                for ((found, a), b) in found.iter_mut().zip(a).zip(b) {
+                    *found = a * (1.0 - t) + b * t;
+                }
+            }
+        },
+    );
+    found
 }

@@ -22,7 +22,7 @@ mod tile;
 mod triangle;
 
 pub use alpha_coverage::AlphaPicture;
-pub use composite::{composite, strand_picture};
+pub use composite::{composite, interpolated, strand_picture};
 pub use error::RasterError;
 pub use fit::fit_colors;
 pub use gbuffer::{GBuffer, Kind};

@@ -111,6 +111,23 @@ def composite(fragments: Fragments, *, rgba: Array) -> Array:
     return picture.reshape(fragments.height, fragments.width, 4)
 
 
+def interpolated(values: Array, *, first: Array, t: Array) -> Array:
+    """(K, ...) float32: `values` (N, ...) of the points at the places `t` (K,) from point `first` (K,) to the next.
+
+    >>> interpolated(np.array([0.0, 2.0, 3.0]), first=[0, 1], t=[0.5, 1.0]).tolist()
+    [1.0, 3.0]
+    """
+    given = np.asarray(values)
+    if given.size == 0 or np.size(first) == 0:
+        return np.zeros((np.size(first), *given.shape[1:]), np.float32)
+    rows = checked(given.reshape(len(given), -1), name="values", dtype=np.float32, shape=(None, None))
+    begin = checked(first, name="first", dtype=np.int32, shape=(None,))
+    place = checked(t, name="t", dtype=np.float32, shape=(len(begin),))
+    if begin.min() < 0 or begin.max() + 1 >= len(rows):
+        raise InputError(f"first runs from {begin.min()} to {begin.max()}; 0 to {len(rows) - 2} was expected.")
+    return _core.raster_interpolated(begin, place, rows).reshape(len(begin), *given.shape[1:])
+
+
 def strand_picture(fragments: Fragments, *, colors: Array) -> Array:
     """Premultiplied RGBA (H, W, 4) float32 of the strands alone, in the `colors` (N, 3) of their points, linear."""
     values = checked(colors, name="colors", dtype=np.float32, shape=(None, 3))

@@ -96,8 +96,7 @@ class HairFragments:
 
     def values(self, per_point: Array) -> Array:
         """(K, ...) float32: values (N, ...) of the points, interpolated along the segments."""
-        t = self.t.reshape(-1, *(1,) * (per_point.ndim - 1))
-        return per_point[self.first] * (1 - t) + per_point[self.first + 1] * t
+        return raster.interpolated(per_point, first=self.first, t=self.t)
 
 
 def on_screen(

@@ -14,6 +14,7 @@ from tress.render.flat_scene import FlatScene
 from tress.render.gbuffer import rasterise
 from tress.render.occlusion import prepared
 from tress.render.picture import premultiplied_rgba, srgb_rgb
+from tress.render.simplify import simplified
 from tress.render.style import Style
 from tress.render.views import framed, pivot, turned
 
@@ -34,6 +35,7 @@ class TurntableParams(Params):
     width: int = param(400, low=16, high=4096, unit="px", doc="Width of a frame; even, for the video.")
     height: int = param(500, low=16, high=4096, unit="px", doc="Height of a frame; even, for the video.")
     min_width_px: float = param(1.0, low=0.1, high=8, unit="px", doc="Least width of a strand.")
+    strands: int = param(20_000, low=1, high=10_000_000, doc="At most about so many strands; more make finer frames.")
 
 
 def turntable(
@@ -44,7 +46,7 @@ def turntable(
     Frames are made when they are asked for, a few at a time. Raises `InputError` for an empty scene.
     """
     settings = params or TurntableParams()
-    scene = prepared(scene)
+    scene = simplified(prepared(scene), most_strands=settings.strands)
     camera = framed(scene, width=settings.width, height=settings.height)
     centre = pivot(scene)
     views = [

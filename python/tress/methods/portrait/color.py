@@ -13,6 +13,7 @@ from tress.image.labels import BODY, FACE
 from tress.image.matte import Matte
 from tress.kernel.raster import strand_picture
 from tress.methods.portrait.opacity import with_fitted_opacity
+from tress.methods.portrait.rim_tint import with_rim_tint
 from tress.model.evaluate import Scene
 from tress.render.fit_colors import fit_vertex_colors
 from tress.render.flat_scene import flat_scene
@@ -40,6 +41,9 @@ class ColorParams(Params):
     opacity_rounds: int = param(1, low=0, high=10, doc="Rounds in which opacities are fitted to the matte.")
     own_color: float = param(
         0.08, low=0.0, high=10.0, doc="How far colours may stray from the matte's, so that the picture is the photo's."
+    )
+    rim_tint: float = param(
+        0.7, low=0.0, high=1.0, doc="How far the tint of soft rims is drawn towards that of the solid hair near them."
     )
     least_alpha: float = param(0.1, low=0.0, high=1.0, doc="Pixels with less hair than this say nothing on its colour.")
     min_width_px: float = param(1.0, low=0.1, high=8.0, unit="px", doc="Least width of a strand in pictures.")
@@ -96,7 +100,7 @@ def color_stage(
     color = fit_vertex_colors(
         gbuffer,
         colors=gbuffer.scene.color,
-        target_linear=_target(pixels, matte, coverage, box, params.own_color),
+        target_linear=_target(pixels, matte, coverage, box, params),
         weight=np.where(matte.alpha > params.least_alpha, coverage, 0),
         iterations=params.iterations,
     )
@@ -116,20 +120,21 @@ def _box(where: NDArray[np.bool_]) -> Box:
 
 
 def _target(
-    pixels: NDArray[np.uint8], matte: Matte, coverage: NDArray[np.float32], box: Box, own_color: float
+    pixels: NDArray[np.uint8], matte: Matte, coverage: NDArray[np.float32], box: Box, params: ColorParams
 ) -> NDArray[np.float32]:
     """Colour (H, W, 3) that the strands should show, linear; 0 outside the `box`.
 
     Where there is mostly hair: the colour with which the strands, covering as much of the pixel as they do, give the
     photo's pixel over the other layers, but near the matte's own colour of hair, lest the background tint it. At soft
-    edges: the matte's colour.
+    edges: the matte's colour. Rims have the tint of the hair near them.
     """
     own, seen = matte.foreground[box], coverage[box][..., None]
     exact = (srgb_to_linear(pixels[box]) - (1 - seen) * matte.background[box]) / np.maximum(seen, _LEAST_COVERAGE)
-    reach = own_color * (1 + _RELATIVE * own)
+    reach = params.own_color * (1 + _RELATIVE * own)
     near = np.clip(own + np.clip(exact - own, -reach, reach), 0, _BRIGHTEST)
     target = np.zeros(pixels.shape, np.float32)
-    target[box] = np.where((matte.alpha[box] > _MOSTLY_HAIR)[..., None], near, own)
+    wanted = np.where((matte.alpha[box] > _MOSTLY_HAIR)[..., None], near, own)
+    target[box] = with_rim_tint(wanted, foreground=own, alpha=matte.alpha[box], amount=params.rim_tint)
     return target
 
 

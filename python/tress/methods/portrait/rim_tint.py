@@ -1,0 +1,39 @@
+"""Tint of the hair's soft rim: that of the solid hair near it.
+
+What the matte gets wrong at the rim, and the coloured fringes of lenses, are a matter of tint more than of brightness,
+and show as coloured seams once the head turns. So the brightness of the rim is kept, and its tint drawn towards that of
+the solid hair around it.
+"""
+
+from typing import Final
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tress.base.color import luminance
+
+_SOLID: Final = 0.97
+"""Alpha from which hair is solid and keeps its tint."""
+_THIN: Final = 0.6
+"""Alpha up to which the tint is drawn as far as it may be."""
+_REACH_PX: Final = 6.0
+_LEAST_NEAR: Final = 1e-3
+_DARKEST: Final = 1e-3
+
+
+def with_rim_tint(
+    color: NDArray[np.float32], *, foreground: NDArray[np.float32], alpha: NDArray[np.float32], amount: float
+) -> NDArray[np.float32]:
+    """`color` (H, W, 3) float32 linear, its tint drawn by `amount` (0 to 1) towards the rim's neighbours'.
+
+    `foreground` (H, W, 3) linear and `alpha` (H, W) are the matte's. Luminance stays the same, but for black; solid
+    hair, and rims without any within some 20 px, stay as they are.
+    """
+    solid = (alpha > _SOLID).astype(np.float32)
+    near = cv2.GaussianBlur(solid, (0, 0), _REACH_PX)
+    summed = cv2.GaussianBlur(foreground * solid[..., None], (0, 0), _REACH_PX)
+    hair = summed / np.maximum(near, _LEAST_NEAR)[..., None]
+    brightness = luminance(color) / np.maximum(luminance(hair), _DARKEST)
+    share = amount * np.clip((_SOLID - alpha) / (_SOLID - _THIN), 0, 1) * (near > _LEAST_NEAR)
+    return (color + share[..., None] * (hair * brightness[..., None] - color)).astype(np.float32)
