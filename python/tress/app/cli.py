@@ -12,6 +12,7 @@ from tress.app.exit_codes import INTERRUPTED
 from tress.app.info_command import info
 from tress.app.params_command import params
 from tress.app.portrait_command import portrait
+from tress.app.texture_command import texture
 
 EPILOG = (
     "Exit codes: 0 done · 1 a fault of Tress · 2 input that cannot be used · 3 the result could not be written · "
@@ -28,6 +29,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.command()(portrait)
+app.command()(texture)
 app.command()(params)
 app.command()(info)
 app.command()(convert)

@@ -1,10 +1,6 @@
 """The files of a reconstruction: formats, preview, turntable, report, plain arrays, and the stages."""
 
-import importlib.metadata
-import json
 import math
-import platform
-import resource
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -14,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from tress import __version__
 from tress.base.report import Report
 from tress.image.labels import FACE
 from tress.io.format import Format
 from tress.io.formats.npz import Maps, write_reconstruction
+from tress.io.report_file import write_report
 from tress.io.stage_cache import StageCache
 from tress.methods.portrait.pipeline import STAGES, Reconstruction
 from tress.methods.portrait.stage import Stage
@@ -43,7 +39,6 @@ PREVIEW_AIR: Final = 0.12
 """Air around the head in the preview, as a share of its size."""
 PREVIEW_ANGLES: Final = tuple(math.radians(angle) for angle in (-30, 30, 180))
 PREVIEW_CAPTIONS: Final = ("photo", "rendered over it", "-30 degrees", "+30 degrees", "back")
-_VERSIONS_OF: Final = ("numpy", "scipy", "opencv-python-headless", "scikit-image", "pillow", "usd-core")
 
 
 def deliver(
@@ -71,7 +66,7 @@ def deliver(
     if turntable:
         with report.stage("turntable"):
             write_webm(folder / "turntable.webm", frames=frames_of_turn(scene, style=PhotoStyle.soft(), report=report))
-    deliver_report(report, folder, facts=facts)
+    write_report(report, folder / "report.json", facts=facts)
 
 
 def deliver_stages(reconstruction: Reconstruction, folder: Path) -> None:
@@ -132,26 +127,6 @@ def _head_box(alpha: NDArray[np.float32], label: NDArray[np.uint8]) -> tuple[sli
 def _view(scene: FlatScene, camera: Camera) -> NDArray[np.uint8]:
     seen = rasterise(scene, xy_from_world=camera.xy_from_world, width=camera.width, height=camera.height)
     return srgb_rgb(premultiplied_rgba(seen, style=PhotoStyle.soft()), background=BACKDROP)
-
-
-def deliver_report(report: Report, folder: Path, *, facts: Mapping[str, Any]) -> None:
-    """`report.json`: versions, `facts`, and time, figures and warnings of every stage."""
-    stages = report.as_dict()
-    content = {
-        "versions": versions(),
-        **facts,
-        "duration_secs": sum(stage["duration_secs"] for stage in stages),
-        "peak_memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
-        "warnings": [f"{stage['name']}: {warning}" for stage in stages for warning in stage["warnings"]],
-        "stages": stages,
-    }
-    (folder / "report.json").write_text(json.dumps(content, indent=2) + "\n")
-
-
-def versions() -> dict[str, str]:
-    """Versions of Tress, of Python and of what the result depends on."""
-    libraries = {name: importlib.metadata.version(name) for name in _VERSIONS_OF}
-    return {"tress": __version__, "python": platform.python_version(), **libraries}
 
 
 def write_picture(pixels: np.ndarray, path: Path) -> None:

@@ -24,6 +24,8 @@ MARGIN = 0.03
 """What strands keep free at the left and right edge, in card widths."""
 _WAVES = 6
 _FRIZZ = 0.05
+_EDGE_AIR = 0.45
+"""How much wider than the mean roots stand apart at the card's edges, and narrower in its middle."""
 _SHORTEST = 0.25
 
 
@@ -97,8 +99,9 @@ def _locks(params: TextureParams, kind: CardKind, y: Array, random: Generator) -
 
 
 def _roots(count: int, kind: CardKind, random: Generator) -> Array:
-    """Evenly spread, each at random within its share."""
-    return kind.spread * ((np.arange(count) + random.random(count)) / count - 0.5)
+    """Spread from edge to edge, each at random within its share; sparser at the edges, so that cards end softly."""
+    even = (np.arange(count) + random.random(count)) / count
+    return kind.spread * (even + _EDGE_AIR * np.sin(2 * np.pi * even) / (2 * np.pi) - 0.5)
 
 
 def _nearest_lock(root: Array, locks: _Locks, random: Generator) -> Array:
@@ -166,7 +169,7 @@ def _profile(params: TextureParams, t: Array, y: Array, stray: Array, random: Ge
 
 def _within(x: Array) -> Array:
     """x bent back softly where it nears the card's edge."""
-    half, bent = 0.5 - MARGIN, 0.75
+    half, bent = 0.5 - MARGIN, 0.88
     size = np.abs(x) / half
     over = bent + (1 - bent) * np.tanh((size - bent) / (1 - bent))
     return np.sign(x) * half * np.where(size < bent, size, over)

@@ -23,6 +23,8 @@ from tress.render.textures.map_codec import COLOR, STRAND_ID, codec_of
 Array = np.ndarray[Any, Any]
 
 _COLOR = "color"
+_LEAST_TEXELS = 4
+"""A card of fewer texels across shows no strands, and its coverage moves in steps of many hundredths."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +56,7 @@ class _Cell:
 
 
 def mip_chain(atlas: Atlas, *, padding: int, threshold: float) -> tuple[MipLevel, ...]:
-    """The atlas and its smaller levels, down to the last on which cards cannot bleed into each other.
+    """The atlas and its smaller levels, down to the last on which cards are 4 texels wide and cannot bleed into others.
 
     `padding` is the empty border around every region in pixels of the atlas; it decides how many levels there are:
     cells must begin and end between texels, and the border must keep half a texel. Maps must be uint8.
@@ -71,16 +73,17 @@ def mip_chain(atlas: Atlas, *, padding: int, threshold: float) -> tuple[MipLevel
 
 
 def clear_levels(atlas: Atlas, *, padding: int) -> int:
-    """How many levels, the first included, keep cards apart. Raises `InputError` as `mip_chain` does."""
+    """How many levels, the first included, keep cards apart and 4 texels wide. Raises `InputError` as `mip_chain` does."""
     boxes, level = _cell_boxes(atlas, padding), 0
-    while padding >= 2**level and not (boxes % 2 ** (level + 1)).any() and _halves(atlas, level + 1):
+    narrowest = (boxes[:, 2:] - boxes[:, :2]).min() - 2 * padding
+    while padding >= 2**level and narrowest >= _LEAST_TEXELS * 2 ** (level + 1) and _halves(atlas, boxes, level + 1):
         level += 1
     return level + 1
 
 
-def _halves(atlas: Atlas, level: int) -> bool:
-    height, width = atlas.color.shape[:2]
-    return height % 2**level == 0 and width % 2**level == 0
+def _halves(atlas: Atlas, boxes: Array, level: int) -> bool:
+    """Whether picture and cells still begin and end between the texels of a level."""
+    return not (np.array([*atlas.color.shape[:2], *boxes.ravel()]) % 2**level).any()
 
 
 def _cell_boxes(atlas: Atlas, padding: int) -> Array:
