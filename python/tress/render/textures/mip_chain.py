@@ -73,7 +73,7 @@ def mip_chain(atlas: Atlas, *, padding: int, threshold: float) -> tuple[MipLevel
 
 
 def clear_levels(atlas: Atlas, *, padding: int) -> int:
-    """How many levels, the first included, keep cards apart and 4 texels wide. Raises `InputError` as `mip_chain` does."""
+    """How many levels, the first included, keep cards apart and 4 texels wide; refuses what `mip_chain` does."""
     boxes, level = _cell_boxes(atlas, padding), 0
     narrowest = (boxes[:, 2:] - boxes[:, :2]).min() - 2 * padding
     while padding >= 2**level and narrowest >= _LEAST_TEXELS * 2 ** (level + 1) and _halves(atlas, boxes, level + 1):
