@@ -140,6 +140,13 @@ pub fn trace(
     Ok(out)
 }
 
+/// A point as the picture sees it.
+#[derive(Clone, Copy)]
+struct Sight {
+    pixel: DVec2,
+    surface: Option<f64>,
+}
+
 struct Path {
     points: Vec<DVec3>,
     rooted: bool,
@@ -156,7 +163,7 @@ impl Tracer<'_> {
         if self.taken(seed.point, cover) || self.full(seed.point, density, cover) {
             return None;
         }
-        let start = self.out_of_head(seed.point);
+        let start = self.out_of_head(seed.point)?;
         let (mut back, rooted) = self.walk(start, -1.0, seed.backward, density, cover);
         let (ahead, _) = self.walk(start, 1.0, seed.forward, density, cover);
         back.reverse();
@@ -171,20 +178,24 @@ impl Tracer<'_> {
         let mut point = from;
         let mut previous = DVec3::ZERO;
         let steps = (longest / self.options.step) as usize;
+        let mut sight = self.sight(point);
         for _ in 0..steps {
-            let Some(found) = self.direction(point) else { break };
+            let Some(found) = self.direction(point, sight) else { break };
             let direct = found * sense;
             if previous != DVec3::ZERO && direct.dot(previous) < self.options.min_cosine {
                 break;
             }
             let heading = (direct * (1.0 - self.options.inertia) + previous * self.options.inertia).normalize_or_zero();
-            let next = self.advance(point, heading);
+            let (next, seen) = self.advance(point, sight, heading);
             if self.full(next, density, cover) {
                 break;
             }
-            let gap = self.head_distance(next);
+            let gap = if self.far_from_head(next) { f64::INFINITY } else { self.head_distance(next) };
             if gap < self.options.clearance {
                 let pushed = self.pushed_out(next, gap);
+                if self.head_distance(pushed) < 0.0 {
+                    return (points, sense < 0.0);
+                }
                 if sense < 0.0 && gap < 0.5 * self.options.clearance {
                     points.push(pushed);
                     return (points, true);
@@ -192,24 +203,32 @@ impl Tracer<'_> {
                 points.push(pushed);
                 previous = (pushed - point).normalize_or_zero();
                 point = pushed;
+                sight = self.sight(point);
                 continue;
             }
             points.push(next);
             previous = heading;
             point = next;
+            sight = seen;
         }
         let rooted = sense < 0.0 && self.head_distance(point) < 2.0 * self.options.clearance;
         (points, rooted)
     }
 
-    /// Where the strand goes at a point, root to tip; `None` outside the hair.
-    fn direction(&self, point: DVec3) -> Option<DVec3> {
-        self.sheet_direction(point).or_else(|| self.voxel_direction(point))
+    /// What the picture knows of a point: its pixel and, where there is hair, the z of the surface there.
+    fn sight(&self, point: DVec3) -> Sight {
+        let pixel = self.pixel(point);
+        Sight { pixel, surface: self.surface(pixel) }
     }
 
-    fn sheet_direction(&self, point: DVec3) -> Option<DVec3> {
-        let pixel = self.pixel(point);
-        let surface = self.surface(pixel)?;
+    /// Where the strand goes at a point, root to tip; `None` outside the hair.
+    fn direction(&self, point: DVec3, sight: Sight) -> Option<DVec3> {
+        self.sheet_direction(point, sight).or_else(|| self.voxel_direction(point))
+    }
+
+    fn sheet_direction(&self, point: DVec3, sight: Sight) -> Option<DVec3> {
+        let pixel = sight.pixel;
+        let surface = sight.surface?;
         if (point.z - surface).abs() > self.options.sheet_depth {
             return None;
         }
@@ -226,15 +245,15 @@ impl Tracer<'_> {
     }
 
     /// One step; on the sheet the distance behind the surface is kept.
-    fn advance(&self, point: DVec3, heading: DVec3) -> DVec3 {
+    fn advance(&self, point: DVec3, sight: Sight, heading: DVec3) -> (DVec3, Sight) {
         let next = point + heading * self.options.step;
-        let held = |p: DVec3| self.surface(self.pixel(p)).map(|z| p.z - z);
-        match (held(point), held(next)) {
+        let seen = self.sight(next);
+        match (sight.surface.map(|z| point.z - z), seen.surface.map(|z| next.z - z)) {
             (Some(before), Some(after)) if before.abs() <= self.options.sheet_depth => {
                 let slip = (after - before).clamp(-self.options.step, self.options.step);
-                DVec3::new(next.x, next.y, next.z - slip)
+                (DVec3::new(next.x, next.y, next.z - slip), seen)
             }
-            _ => next,
+            _ => (next, seen),
         }
     }
 
@@ -312,15 +331,21 @@ impl Tracer<'_> {
         let low = q.floor();
         let f = q - low;
         let shape = self.field.shape;
-        for corner in 0..8u8 {
-            let up = [corner & 1 == 1, corner & 2 == 2, corner & 4 == 4];
-            let share = (0..3).map(|k| if up[k] { f[k] } else { 1.0 - f[k] }).product::<f64>();
-            let at = |k: usize, size: usize| {
-                let place = low[k] + f64::from(u8::from(up[k]));
-                (place >= 0.0 && place < size as f64).then_some(place as usize)
-            };
-            if let (Some(x), Some(y), Some(z)) = (at(0, shape.columns), at(1, shape.rows), at(2, shape.layers)) {
-                visit(shape.index(z, y, x), share);
+        let sizes = [shape.columns, shape.rows, shape.layers];
+        let mut at = [[None; 2]; 3];
+        for (k, size) in sizes.into_iter().enumerate() {
+            for (step, place) in [low[k], low[k] + 1.0].into_iter().enumerate() {
+                at[k][step] = (place >= 0.0 && place < size as f64).then_some(place as usize);
+            }
+        }
+        for (z, depth_share) in at[2].into_iter().zip([1.0 - f.z, f.z]) {
+            for (y, row_share) in at[1].into_iter().zip([1.0 - f.y, f.y]) {
+                let (Some(z), Some(y)) = (z, y) else { continue };
+                for (x, share) in at[0].into_iter().zip([1.0 - f.x, f.x]) {
+                    if let Some(x) = x {
+                        visit(shape.index(z, y, x), share * row_share * depth_share);
+                    }
+                }
             }
         }
     }
@@ -348,6 +373,13 @@ impl Tracer<'_> {
         if total > 0.5 { sum / total } else { f64::INFINITY }
     }
 
+    /// Whether the voxel says by itself that the skin is beyond its neighbours: a distance changes by no more than one's way.
+    fn far_from_head(&self, point: DVec3) -> bool {
+        self.voxel(point).is_some_and(|voxel| {
+            f64::from(self.field.head_distance[voxel]) > self.options.clearance + 2.0 * self.field.size
+        })
+    }
+
     fn pushed_out(&self, point: DVec3, gap: f64) -> DVec3 {
         let h = 0.5 * self.field.size;
         let slope = DVec3::new(
@@ -358,10 +390,14 @@ impl Tracer<'_> {
         if slope.is_finite() { point + slope.normalize_or_zero() * (self.options.clearance - gap) } else { point }
     }
 
-    /// The point itself, or the one `clearance` before the skin where it is nearer or inside.
-    fn out_of_head(&self, point: DVec3) -> DVec3 {
+    /// The point itself, or where it is nearer than `clearance` to the skin, the one that far before it; `None` where a
+    /// push along the slope does not lead out of the head.
+    fn out_of_head(&self, point: DVec3) -> Option<DVec3> {
         let gap = self.head_distance(point);
-        if gap < self.options.clearance { self.pushed_out(point, gap) } else { point }
+        if gap >= self.options.clearance {
+            return Some(point);
+        }
+        Some(self.pushed_out(point, gap)).filter(|&pushed| self.head_distance(pushed) >= 0.0)
     }
 
     fn on_sheet(&self, point: DVec3) -> Option<usize> {

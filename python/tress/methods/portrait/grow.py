@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from scipy.ndimage import binary_dilation
 
 from tress.base.params import Params, param
 from tress.base.report import Report
@@ -24,6 +25,8 @@ DEEP_IN_HEAD = 0.001
 
 ON_SKIN = 0.004
 """Metres from the head within which hidden hair lies on the skin."""
+AT_SURFACE = 3.0
+"""Hidden strands that start at the outside of the hair for one within."""
 MOST_CUT = 0.35
 """Most of a hanging strand that is cut off so that tips differ."""
 
@@ -162,7 +165,8 @@ def _visible_seeds(depth: Array, xy_from_view: Array, params: GrowParams, random
 def _hidden_seeds(
     hair: HairVolume, count: int, longest: float, params: GrowParams, random: np.random.Generator
 ) -> Array:
-    """Random points of the volume behind the visible surface, denser in its front half.
+    """Random points of the volume behind the visible surface, denser in its front half and where it can be seen from
+    outside.
 
     Strands from them are `longest` metres at most; short ones start anywhere along their length.
     """
@@ -170,7 +174,8 @@ def _hidden_seeds(
     inside = hair.inside & (z < np.where(np.isfinite(hair.front), hair.front - params.sheet_depth, np.inf))
     centres = hair.box.centres(inside)
     before = (z > hair.mid) & np.isfinite(hair.front)
-    chance = np.cumsum(np.where(before[inside], params.front_density, 1.0))
+    open_air = binary_dilation(~hair.inside & (hair.head_distance > 0))[inside]
+    chance = np.cumsum(np.where(before[inside], params.front_density, 1.0) * np.where(open_air, AT_SURFACE, 1.0))
     if len(centres) == 0:
         return np.zeros((0, 5))
     chosen = np.searchsorted(chance, random.uniform(0, chance[-1], count), side="right")

@@ -1,12 +1,14 @@
 """Colour and opacity of every vertex: from the photograph where it is seen, from hair near by where it is hidden."""
 
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import cv2
 import numpy as np
-from scipy.ndimage import binary_erosion
+from scipy.ndimage import binary_erosion, gaussian_filter1d
 
 from tress.image.complete import complete
+from tress.methods.portrait.clean_color import clean_color
 from tress.methods.portrait.volume import HairVolume
 
 Array = np.ndarray[Any, Any]
@@ -15,6 +17,12 @@ ON_SHEET = 0.004
 """Metres behind the visible surface within which a visible strand shows the photograph's colour."""
 SOLID_ALPHA = 0.9
 """Pixels with less hair lend no colour to hidden strands."""
+GRAIN = 0.3
+"""Share of what changes along a hidden strand, other than by the height, that is kept."""
+LEVEL_BLUR = 0.03
+"""Metres over which the mean colour of the heights is smooth."""
+STRANDS_AT_ONCE = 4000
+"""Strands that one thread colours at a time."""
 LIKE_NEAR = 0.02
 """Metres behind the visible surface over which hidden hair takes after the hair before it."""
 OWN_SHARE = 0.4
@@ -46,23 +54,55 @@ def strand_colors(
     photograph; close behind visible hair, that hair.
     """
     shape = alpha.shape
-    pixel = points[:, :2] * [xy_from_view[0, 0], xy_from_view[1, 1]] + xy_from_view[:2, 3]
+    pixel = points[:, :2] * np.float32([xy_from_view[0, 0], xy_from_view[1, 1]]) + np.float32(xy_from_view[:2, 3])
     count = np.diff(offsets)
-    behind = hair.sheet[_index(pixel, shape)] - points[:, 2]
-    shown = np.repeat(visible, count) & (np.abs(behind) < ON_SHEET)
-    place = np.repeat(random.integers(0, WIDTHS, len(count)), count)
     solid = _solid(alpha, hair)
-    across = _across(foreground, solid)
-    row = np.clip(pixel[:, 1].astype(np.int64), 0, shape[0] - 1)
-    completed = _completed(foreground, solid, pixel, seed=int(random.integers(2**31)))
-    color = (1 - OWN_SHARE) * _bilinear(completed, pixel) + OWN_SHARE * across[row, place]
-    near = np.nan_to_num(np.exp(-np.maximum(behind, 0) / LIKE_NEAR), nan=0.0).astype(np.float32)
-    smooth = cv2.GaussianBlur(np.asarray(foreground, np.float32), (0, 0), 2.0)
-    color = (color + near[:, None] * (smooth[_index(pixel, shape)] - color)).astype(np.float32)
-    color[shown] = _bilinear(foreground, pixel[shown])
-    opacity = np.ones(len(points), np.float32)
-    opacity[shown] = np.clip(_bilinear(alpha, pixel[shown]), 0, 1)
+    clean = clean_color(foreground, solid, px_per_metre=xy_from_view[0, 0])
+    across = _across(clean, solid)
+    drawn = random.integers(0, WIDTHS, len(count))
+    completed = _completed(clean, solid, pixel, seed=int(random.integers(2**31)))
+    near_by = cv2.GaussianBlur(clean, (0, 0), 2.0)
+    level = _level(across, LEVEL_BLUR * xy_from_view[0, 0])
+    color, opacity = np.empty((len(points), 3), np.float32), np.ones(len(points), np.float32)
+
+    def fill(first: int, end: int) -> None:
+        """Colours of the strands from `first` on, before `end`."""
+        part = slice(offsets[first], offsets[end])
+        place, strands = pixel[part], count[first:end]
+        index = _index(place, shape)
+        behind = hair.sheet[index] - points[part, 2]
+        own = across[index[0], np.repeat(drawn[first:end], strands)]
+        found = (1 - OWN_SHARE) * _bilinear(completed, place) + OWN_SHARE * own
+        near = np.nan_to_num(np.exp(-np.maximum(behind, 0) / LIKE_NEAR), nan=0.0).astype(np.float32)[:, None]
+        found += near * (near_by[index] - found)
+        found = _along_strands(found, level[index[0]], strands)
+        shown = np.repeat(visible[first:end], strands) & (np.abs(behind) < ON_SHEET)
+        found[shown] = _bilinear(foreground, place[shown])
+        color[part] = found
+        opacity[part][shown] = np.clip(_bilinear(alpha, place[shown]), 0, 1)
+
+    with ThreadPoolExecutor() as pool:
+        bounds = [*range(0, len(count), STRANDS_AT_ONCE), len(count)]
+        list(pool.map(fill, bounds[:-1], bounds[1:]))
     return color, opacity
+
+
+def _along_strands(color: Array, level: Array, count: Array) -> Array:
+    """(N, 3): a strand of `count` (S,) vertices differs from the `level` (N, 3) of its heights mostly by one colour.
+
+    What lies at one height of the picture is a highlight as often as a lock; carried to the hidden side pixel by pixel
+    it would run around the head as a band.
+    """
+    differs = color - level
+    starts = np.concatenate([[0], np.cumsum(count)[:-1]])
+    mean = np.add.reduceat(differs, starts, axis=0) / count[:, None].astype(np.float32)
+    own = np.repeat(mean, count, axis=0)
+    return np.maximum(level + own + GRAIN * (differs - own), 0)
+
+
+def _level(across: Array, blur_px: float) -> Array:
+    """(H, 3) float32: the mean colour of the hair at every height, smooth."""
+    return gaussian_filter1d(across.mean(axis=1), max(blur_px, 0.5), axis=0, mode="nearest")
 
 
 def _solid(alpha: Array, hair: HairVolume) -> Array:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy.ndimage import binary_dilation, gaussian_filter
+from scipy.ndimage import binary_dilation, gaussian_filter, minimum_filter
 
 from tress.base.params import Params, param
 from tress.base.report import Report
@@ -23,12 +23,21 @@ from tress.methods.portrait.depth import StrandDepths, Traced
 from tress.methods.portrait.envelope import Envelope, Head, SolidHead
 from tress.methods.portrait.flow import FlowParams, HairFlow, hair_flow
 from tress.methods.portrait.resample_picture import columns_from_pixels, pixels_from_columns, spread
+from tress.methods.portrait.waves import LOCK, waves, waviness
 
 Array = np.ndarray[Any, Any]
 
 
 BODY_GAP = 0.01
 """Metres between the back of the neck and hair behind the body."""
+BUST_GAP = 0.004
+"""Metres between the back of the bust and hair that falls over it."""
+ROUND_BUST = 7
+"""Columns and rows over which the bust's back is taken at its rearmost."""
+SWING = 0.6
+"""Slope with which hair swings back over the bust."""
+OVER_BUST = 0.012
+"""Metres of hair at least that fall over the bust."""
 NECK = 0.05
 """Metres below the nape over which the neck is trusted."""
 
@@ -41,6 +50,9 @@ TRACED_SHARE = 1.5
 """Length of short hair for the length of the strands that can be followed in the photo, nine in ten of them shorter."""
 SHORTEST = 0.012
 """Metres that short hair is long at least."""
+
+WAVES_FROM = 0.012
+"""Metres behind the visible surface from which hidden hair has waves of its own."""
 
 
 @dataclass(frozen=True)
@@ -117,7 +129,8 @@ def volume(
     out = np.zeros((*box.shape, 3), np.float32)
     length = _length(traced, surface, matrix[0, 0], params)
     rise = np.clip(float(np.median(surface.on_skin[surface.on_skin > 0])) / length, params.rise, params.steepest)
-    out[inside] = _laid(found.axes, layer, normal, solid.distance[inside], rise, params)
+    axes = _waved(found.axes, inside, front, surface, waviness(flow, px_per_metre=matrix[0, 0]))
+    out[inside] = _laid(axes, layer, normal, solid.distance[inside], rise, params)
     report.number("voxels", int(inside.sum()))
     report.number("diffusion_steps", found.iterations)
     report.number("diffusion_converged", found.converged)
@@ -179,11 +192,11 @@ def _filled(surface: Envelope, front: Array, params: VolumeParams) -> tuple[Arra
     box, head = surface.box, surface.head
     z = box.z[:, None, None]
     shown = surface.hair & (z <= front + 0.5 * box.size)
-    behind = z <= _behind_head(head, box)
+    foremost = _behind_head(head, box)
+    behind = z <= foremost
+    back = np.minimum(surface.back, _over_bust(head, box) - OVER_BUST)
     long = surface.extended & _hangs(surface)
-    between = (z >= surface.back) & (
-        (shown & ((z >= surface.mid) | ~head.seen)) | (long & behind & (shown | ~surface.hair))
-    )
+    between = (z >= back) & ((shown & ((z >= surface.mid) | ~head.seen)) | (long & behind & (shown | ~surface.hair)))
     layer = _on_scalp(surface) & np.where(surface.bare, behind, shown | ~surface.hair)
     body = between | layer | (head.distance <= 0)
     depth_m = fields.distance(~body) * np.float32(box.size)
@@ -218,12 +231,25 @@ def _hangs(surface: Envelope) -> Array:
 def _behind_head(head: SolidHead, box: Box) -> Array:
     """(R, C) metres: the foremost that hidden hair may be: the head's back; below the nape, the back of the neck.
 
-    The bust that ends the head's mesh says nothing of the body: its open columns have no back.
+    The bust that ends the head's mesh says nothing of the body: its open columns have no back. Hair that falls from
+    above passes behind what of it stands out further.
     """
     neck = head.back[(box.y < head.nape) & (box.y > head.nape - NECK)]
     behind = float(np.nanmin(neck)) - BODY_GAP if np.isfinite(neck).any() else 0.0
     above = head.seen & (box.y >= head.nape - NECK)[:, None]
-    return np.where(above, head.back, behind)
+    return np.where(above, head.back, np.minimum(_over_bust(head, box), behind))
+
+
+def _over_bust(head: SolidHead, box: Box) -> Array:
+    """(R, C) metres: the foremost of hair that falls over the back of neck and bust; far before both where it does
+    not touch them. Above where it touches it swings back by and by.
+    """
+    below = (box.y < head.nape)[:, None]
+    rearmost = minimum_filter(np.where(below & head.seen, head.back, np.inf), size=ROUND_BUST)
+    over = np.minimum.accumulate(rearmost, axis=0) - BUST_GAP
+    for row in range(len(over) - 2, -1, -1):
+        over[row] = np.minimum(over[row], over[row + 1] + SWING * box.size)
+    return over
 
 
 def _layers(depth_m: Array, head_distance: Array, inside: Array) -> tuple[Array, Array]:
@@ -284,6 +310,16 @@ def _data(
     vectors[near] = seen[row[near], column[near]]
     weights[near] = params.picture_weight * trust[row[near], column[near]] + 1e-3
     return vectors, weights
+
+
+def _waved(axes: Array, inside: Array, front: Array, surface: Envelope, amount: float) -> Array:
+    """Axes (N, 3) of the voxels `inside`, turned by waves of `amount` radians; the less the nearer what is seen."""
+    box = surface.box
+    layer, row, column = np.nonzero(inside)
+    behind = np.where(surface.hair, front, np.inf)[row, column] - box.z[layer]
+    share = amount * np.clip(behind / WAVES_FROM, 0, 1)
+    places = np.stack([column, row, layer], axis=1) + 0.5
+    return axes + share[:, None] * waves(places, shape=box.shape, lock=LOCK / box.size, seed=0)
 
 
 def _laid(axes: Array, layer: Array, normal: Array, head_distance: Array, rise: float, params: VolumeParams) -> Array:
