@@ -37,9 +37,9 @@ def clean_color(foreground: Array, solid: Array, *, px_per_metre: float) -> Arra
     core = hair_core(solid, px_per_metre=px_per_metre)
     if not core.any():
         return picture
-    labels = cv2.distanceTransformWithLabels((~core).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)[
-        1
-    ]
+    outside = (~core).astype(np.uint8)
+    numbers = cv2.distanceTransformWithLabels(outside, cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)[1]
+    labels = np.asarray(numbers, np.int64)
     color_of_label = np.zeros((int(labels.max()) + 1, 3), np.float32)
     blurred = _mean_of_core(picture, core)
     color_of_label[labels[core]] = blurred[core]

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.ndimage import binary_dilation
 
 from tress.base.params import Params, param
 from tress.base.report import Report
@@ -25,8 +24,10 @@ DEEP_IN_HEAD = 0.001
 
 ON_SKIN = 0.004
 """Metres from the head within which hidden hair lies on the skin."""
-AT_SURFACE = 3.0
-"""Hidden strands that start at the outside of the hair for one within."""
+AT_BACK = 2.0
+"""Voxels that the back of the hair is thick."""
+BACK_DENSITY = 4.0
+"""Hidden strands that start there for one within."""
 MOST_CUT = 0.35
 """Most of a hanging strand that is cut off so that tips differ."""
 
@@ -165,8 +166,7 @@ def _visible_seeds(depth: Array, xy_from_view: Array, params: GrowParams, random
 def _hidden_seeds(
     hair: HairVolume, count: int, longest: float, params: GrowParams, random: np.random.Generator
 ) -> Array:
-    """Random points of the volume behind the visible surface, denser in its front half and where it can be seen from
-    outside.
+    """Random points of the volume behind the visible surface, denser in its front half and at its back.
 
     Strands from them are `longest` metres at most; short ones start anywhere along their length.
     """
@@ -174,8 +174,9 @@ def _hidden_seeds(
     inside = hair.inside & (z < np.where(np.isfinite(hair.front), hair.front - params.sheet_depth, np.inf))
     centres = hair.box.centres(inside)
     before = (z > hair.mid) & np.isfinite(hair.front)
-    open_air = binary_dilation(~hair.inside & (hair.head_distance > 0))[inside]
-    chance = np.cumsum(np.where(before[inside], params.front_density, 1.0) * np.where(open_air, AT_SURFACE, 1.0))
+    at_back = z <= hair.back + AT_BACK * hair.voxel
+    density = np.where(before, params.front_density, np.where(at_back, BACK_DENSITY, 1.0))
+    chance = np.cumsum(density[inside])
     if len(centres) == 0:
         return np.zeros((0, 5))
     chosen = np.searchsorted(chance, random.uniform(0, chance[-1], count), side="right")

@@ -54,7 +54,8 @@ def strand_colors(
     photograph; close behind visible hair, that hair.
     """
     shape = alpha.shape
-    pixel = points[:, :2] * np.float32([xy_from_view[0, 0], xy_from_view[1, 1]]) + np.float32(xy_from_view[:2, 3])
+    scale = np.array([xy_from_view[0, 0], xy_from_view[1, 1]], np.float32)
+    pixel = points[:, :2] * scale + xy_from_view[:2, 3].astype(np.float32)
     count = np.diff(offsets)
     solid = _solid(alpha, hair)
     clean = clean_color(foreground, solid, px_per_metre=xy_from_view[0, 0])

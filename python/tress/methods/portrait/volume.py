@@ -194,8 +194,9 @@ def _filled(surface: Envelope, front: Array, params: VolumeParams) -> tuple[Arra
     shown = surface.hair & (z <= front + 0.5 * box.size)
     foremost = _behind_head(head, box)
     behind = z <= foremost
-    back = np.minimum(surface.back, _over_bust(head, box) - OVER_BUST)
-    long = surface.extended & _hangs(surface)
+    hangs = _hangs(surface)
+    back = np.where(hangs, np.minimum(surface.back, _over_bust(head, box) - OVER_BUST), surface.back)
+    long = surface.extended & hangs
     between = (z >= back) & ((shown & ((z >= surface.mid) | ~head.seen)) | (long & behind & (shown | ~surface.hair)))
     layer = _on_scalp(surface) & np.where(surface.bare, behind, shown | ~surface.hair)
     body = between | layer | (head.distance <= 0)

@@ -40,7 +40,7 @@ def waviness(flow: HairFlow, *, px_per_metre: float) -> float:
 
 
 def waves(places: Array, *, shape: tuple[int, ...], lock: float, seed: int) -> Array:
-    """(N, 3) float32: a smooth random field of unit spread at `places` (N, 3) of a box of `shape` voxels.
+    """(N, 3) float32: a smooth random field around 0, mostly within 1, at `places` (N, 3) of a box of `shape` voxels.
 
     `places` hold column, row, layer; `lock` is the distance, in voxels, over which the field turns.
     """
