@@ -95,7 +95,8 @@ def test_every_seen_texel_has_a_strand():
 
 def test_ids_of_the_first_255_strands_differ():
     ids = strand_ids(255)
-    assert len(np.unique(ids)) > 200 and ids.min() >= 1
+    assert sorted(ids) == list(range(1, 256))
+    assert np.abs(np.diff(ids.astype(int))).min() > 50
 
 
 def test_deep_strands_are_darker():

@@ -20,7 +20,8 @@ ROUNDNESS = 0.85
 """Sine of the steepest angle that a strand's normal has at its edge: a full 1 would leave only noise at this size."""
 _EDGE_SHADE = 0.22
 """How much darker the colour is at the edge of a strand."""
-_ID_STEP = 0.6180339887498949
+_IDS, _ID_STEP = 255, 157
+"""The step has no factor in common with the number of ids and is near its golden section."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +95,7 @@ def bake_card(strands: CardStrands, colors: Array, *, width: int, height: int) -
 
 def strand_ids(count: int) -> Array:
     """(count,) uint8 from 1 to 255: neighbours differ much; beyond 255 strands some share a number."""
-    return (1 + np.floor(np.arange(count) * _ID_STEP % 1 * 255)).astype(np.uint8)
+    return (1 + np.arange(count) * _ID_STEP % _IDS).astype(np.uint8)
 
 
 def _seen(strands: CardStrands, width: int, height: int) -> _Seen:
