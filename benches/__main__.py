@@ -2,6 +2,7 @@
 
 import resource
 import sys
+import time
 from collections.abc import Callable
 
 import cv2
@@ -15,6 +16,7 @@ from tress.base.report import Report
 from tress.methods.portrait.pipeline import reconstruct
 
 CONSOLE = Console(width=120)
+RUNS = 3
 HEAD_BOX = (slice(0, 250), slice(95, 345))
 """The astronaut's head and shoulders; enlarged four times, her hair fills some 500 x 440 pixels."""
 
@@ -25,18 +27,28 @@ def portrait_photo() -> np.ndarray:
 
 
 def bench_portrait() -> None:
-    """Seconds of every stage, photograph in memory to 50,000 coloured strands, on a second run in this process."""
+    """Seconds of every stage, photograph in memory to a document of 50,000 coloured strands: the best of some runs.
+
+    A first run warms up and does not count. Other work on the machine shows in the seconds of the clock far more than
+    in those of the processor; on two idle cores, the clock should need a good half of the processor's.
+    """
     photo = portrait_photo()
     reconstruct(photo)
-    report = Report()
-    reconstruct(photo, report=report)
-    table = Table(title="Portrait of 1000 x 1000 px: seconds a stage")
+    best: dict[str, float] = {}
+    processor_secs = float("inf")
+    for _ in range(RUNS):
+        report, before = Report(), time.process_time()
+        reconstruct(photo, report=report)
+        processor_secs = min(processor_secs, time.process_time() - before)
+        for stage in report.stages:
+            best[stage.name] = min(best.get(stage.name, float("inf")), stage.duration_secs)
+    table = Table(title=f"Portrait of 1000 x 1000 px: seconds a stage, the best of {RUNS} runs")
     table.add_column("stage")
     table.add_column("seconds", justify="right")
-    for stage in report.stages:
-        table.add_row(stage.name, f"{stage.duration_secs:.2f}")
-    total = sum(stage.duration_secs for stage in report.stages)
-    table.add_row("all", f"{total:.2f}", style="bold")
+    for name, seconds in best.items():
+        table.add_row(name, f"{seconds:.2f}")
+    table.add_row("all", f"{sum(best.values()):.2f}", style="bold")
+    table.add_row("processor, all cores", f"{processor_secs:.2f}")
     CONSOLE.print(table)
     peak_gib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
     CONSOLE.print(f"peak memory of the process: {peak_gib:.2f} GiB\n")

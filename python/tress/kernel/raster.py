@@ -84,8 +84,8 @@ def rasterise(
     narrower than `min_width_px` are drawn that wide with as much less opacity. Opacity is a random subset of the
     samples, the same along a strand and independent between strands; it is right in the mean, with steps of 1/16.
 
-    Cost: 2.5 million segments to 1000 x 1000 pixels in about one second of one core. Limits: a strand that points
-    exactly at the viewer shows nothing; pictures of at most 16384 pixels a side.
+    Cost: 2.5 million segments to 1000 x 1000 pixels in 0.4 to 1 s of one core, thin and transparent strands the most.
+    Limits: a strand that points exactly at the viewer shows nothing; pictures of at most 16384 pixels a side.
     """
     given = (
         checked(strand_points, name="strand_points", dtype=np.float32, shape=(None, 4)),
