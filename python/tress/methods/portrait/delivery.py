@@ -107,7 +107,9 @@ def preview(reconstruction: Reconstruction, scene: FlatScene) -> NDArray[np.uint
     """The photo, the hair rendered over it, the head turned by 30° to either side, and from behind."""
     work = reconstruction.work
     camera = framed(scene, width=round(0.8 * PREVIEW_HEIGHT), height=PREVIEW_HEIGHT)
-    views = [_view(scene, turned(camera, angle_rad=angle, pivot_in_world=pivot(scene))) for angle in PREVIEW_ANGLES]
+    cameras = [turned(camera, angle_rad=angle, pivot_in_world=pivot(scene)) for angle in PREVIEW_ANGLES]
+    with ThreadPoolExecutor() as pool:  # one view is shaded while another is rasterised
+        views = list(pool.map(lambda camera: _view(scene, camera), cameras))
     box = _head_box(work["matte"].alpha, work["layers"].label)
     pictures = [work.pixels[box], work["color"].composite[box], *views]
     return contact_sheet(pictures, captions=PREVIEW_CAPTIONS, height=PREVIEW_HEIGHT)
