@@ -31,11 +31,6 @@ def test_later_strokes_lie_over_earlier_ones_and_a_point_is_a_dot() -> None:
     assert drawn[20, 30] == FACE and drawn[20, 26] == HAIR and drawn[0, 0] == NO_STROKE
 
 
-def test_strokes_outside_the_photograph_are_cut_off() -> None:
-    drawn = strokes_from_polylines([{"layer": "body", "points": [[-500, 500], [-400, 900]]}], shape=SHAPE)
-    assert (drawn == NO_STROKE).all()
-
-
 @pytest.mark.parametrize("grey", [True, False])
 def test_a_mask_says_the_same_grey_or_coloured(tmp_path: Path, grey: bool) -> None:
     labels = np.full(SHAPE, NO_STROKE, np.uint8)
@@ -89,3 +84,14 @@ def test_a_mask_of_another_size_or_no_picture_is_refused(tmp_path: Path) -> None
         read_strokes(path, shape=SHAPE)
     with pytest.raises(InputError, match="does not exist"):
         read_strokes(tmp_path / "none.png", shape=SHAPE)
+
+
+@pytest.mark.parametrize("points", [[[-50, 10], [-20, 30]], [[10, 200], [30, 150]], [[90, 40]]])
+def test_a_stroke_beside_the_photograph_is_refused(points: list[list[int]]) -> None:
+    with pytest.raises(InputError, match="stroke 0 lies beside the photograph of 60 x 80 px"):
+        strokes_from_polylines([{"layer": "hair", "width": 20, "points": points}], shape=(80, 60))
+
+
+def test_a_stroke_that_reaches_into_the_photograph_is_taken() -> None:
+    drawn = strokes_from_polylines([{"layer": "hair", "width": 20, "points": [[-5, 40]]}], shape=(80, 60))
+    assert drawn[40, 0] == HAIR

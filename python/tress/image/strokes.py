@@ -73,11 +73,13 @@ def strokes_from_polylines(strokes: Sequence[Mapping[str, Any]], *, shape: tuple
     """Strokes map (H, W) uint8 of polylines: `layer` (a name), `points` (N, 2) px, `width` px (8 if absent).
 
     Later strokes lie over earlier ones; what is outside the photograph is cut off. Raises `InputError` where a stroke
-    lacks a part or a value makes no sense.
+    lacks a part, a value makes no sense, or all of it lies beside the photograph.
     """
     drawn = np.full(shape, NO_STROKE, np.uint8)
     for number, stroke in enumerate(strokes):
-        _draw(drawn, *_checked_stroke(stroke, number))
+        layer, points, width = _checked_stroke(stroke, number)
+        _check_touches(points, width, number, shape)
+        _draw(drawn, layer, points, width)
     return drawn
 
 
@@ -108,6 +110,15 @@ def _checked_stroke(stroke: Any, number: int) -> tuple[int, NDArray[np.float64],
     if points.ndim != 2 or points.shape[1] != 2 or len(points) == 0 or not np.isfinite(points).all():
         raise InputError(f"stroke {number} has no points; a list of [x, y] in pixels was expected.")
     return LAYER_OF_NAME[name], np.clip(points, -1e5, 1e5), float(width)
+
+
+def _check_touches(points: NDArray[np.float64], width_px: float, number: int, shape: tuple[int, int]) -> None:
+    low, high = points.min(axis=0) - width_px / 2, points.max(axis=0) + width_px / 2
+    if (high < 0).any() or (low > shape[::-1]).any():
+        raise InputError(
+            f"stroke {number} lies beside the photograph of {shape[1]} x {shape[0]} px; "
+            "points in its own pixels, x to the right and y down, were expected."
+        )
 
 
 def _draw(drawn: NDArray[np.uint8], layer: int, points: NDArray[np.float64], width_px: float) -> None:
