@@ -5,8 +5,10 @@ import numpy as np
 import pytest
 
 from tress.base.errors import InputError
+from tress.image.appearance import learnt_appearance, log_likelihood
 from tress.image.labels import BACKGROUND, BODY, FACE, HAIR
 from tress.image.layers import LayerParams, segment_layers
+from tress.image.reach import reach
 from tress.image.spread import spread_of_strokes
 from tress.image.strokes import NO_STROKE
 
@@ -172,3 +174,25 @@ def test_an_enlarged_photograph_has_the_same_layers() -> None:
     small = segment_layers(image, prior=prior, params=params).hair_mask
     again = segment_layers(large, prior=large_prior, params=params).hair_mask[2::4, 2::4]
     assert (small & again).sum() / (small | again).sum() > 0.95
+
+
+def test_a_step_of_colour_is_a_toll_on_the_way() -> None:
+    """A ring of four nodes: the shortest way goes round the dear edge."""
+    edges, start = np.array([[0, 1], [1, 2], [2, 3], [0, 3]]), np.array([True, False, False, False])
+    tolls = np.array([0.0, 1.0, 1.0, 1.0])
+    assert reach(tolls, edges=edges, start=start) == pytest.approx([0, 1, 2, 1], abs=1e-6)
+    dear = reach(tolls, edges=edges, start=start, step=np.array([0.0, 0.0, 0.0, 5.0]))
+    assert dear == pytest.approx([0, 1, 2, 3], abs=1e-6)
+
+
+def test_skin_is_learnt_past_a_fringe() -> None:
+    """A quarter of the face's patches are dark strands; they are still unlike skin."""
+    random = np.random.default_rng(2)
+    skin = random.normal([70, 15, 15, 0, 5], [5, 2, 2, 3, 3], (300, 5))
+    strands = random.normal([28, 3, 5, 10, 11], [5, 2, 2, 3, 3], (100, 5))
+    samples = np.concatenate([skin, strands])
+    weights = np.zeros((400, 4))
+    weights[:, FACE] = 1
+    learnt = learnt_appearance(samples, weights=weights, strokes=np.full(400, NO_STROKE, np.uint8))
+    look = log_likelihood(learnt, samples)[:, FACE]
+    assert np.median(look[:300]) - np.median(look[300:]) > 4

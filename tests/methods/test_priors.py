@@ -104,3 +104,13 @@ def test_a_small_head_in_a_large_picture_gets_patches_of_its_own() -> None:
     assert (layers.hair_mask & truth).sum() / (layers.hair_mask | truth).sum() > 0.85
     head = layers.superpixels[200:400, 800:1000]
     assert len(np.unique(head)) > 200
+
+
+def test_eyes_and_nose_are_no_hair_though_they_look_like_it() -> None:
+    """A dark eye that touches the hair through a dark smear at the temple stays face."""
+    image, person = drawn_photo(hair=(40, 25, 20))
+    landmarks = drawn_landmarks(center=(150, 130), height=100)
+    cv2.ellipse(image, (130, 120), (10, 5), 0, 0, 360, (40, 25, 20), -1)
+    cv2.line(image, (130, 120), (95, 112), (40, 25, 20), 6)
+    layers = layers_stage(image, landmarks=landmarks, person=person, report=Report())
+    assert layers.hair_mask[55, 150] and not layers.hair_mask[115:126, 122:139].any()

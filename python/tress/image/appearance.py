@@ -21,6 +21,10 @@ _OUTLIERS: Final = 0.02
 _TRIMMINGS: Final = 4
 _TRIM_SQ: Final = 9.0
 """Squared Mahalanobis distance beyond which a patch of the face is not skin."""
+_FIRST_TRIM_SQ: Final = 16.0
+"""The same before the first trimming, from the median, where texture and colours are not yet known to go together."""
+_NORMAL_QUARTILE: Final = 0.6745
+"""Median distance from the mean of a normal distribution of variance 1."""
 _STROKED: Final = 0.35
 """Share of a layer that looks like its strokes."""
 _BARE_SKIN: Final = 0.15
@@ -80,7 +84,7 @@ def log_likelihood(appearance: Appearance, samples: NDArray[np.float64]) -> NDAr
 
 def _of_one_cluster(samples: NDArray[np.float64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
     """Weights without what is far from the middle of the cluster: skin without eyes, brows, lips and fringe."""
-    kept = weights
+    kept = np.where(_from_median_sq(samples, weights) < _FIRST_TRIM_SQ, weights, 0.0)
     for _ in range(_TRIMMINGS):
         if kept.sum() <= 0:
             return weights
@@ -89,6 +93,21 @@ def _of_one_cluster(samples: NDArray[np.float64], weights: NDArray[np.float64]) 
         distance_sq = np.einsum("ni,ij,nj->n", away, np.linalg.inv(middle.covariance[0]), away)
         kept = np.where(distance_sq < _TRIM_SQ, weights, 0.0)
     return kept
+
+
+def _from_median_sq(samples: NDArray[np.float64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Squared distance (N,) from the weighted median, in spreads that a quarter of other things widens little."""
+    away = samples - _weighted_median(samples, weights)
+    deviation = _weighted_median(np.abs(away), weights) / _NORMAL_QUARTILE
+    return (away**2 / (deviation**2 + _FLOOR)).sum(axis=1)
+
+
+def _weighted_median(values: NDArray[np.float64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Of every column of `values` (N, D)."""
+    order = np.argsort(values, axis=0, kind="stable")
+    mass = np.cumsum(weights[order], axis=0)
+    row = (mass < mass[-1] / 2).sum(axis=0)
+    return np.take_along_axis(values, np.take_along_axis(order, row[None], axis=0), axis=0)[0]
 
 
 def _joined(first: Mixture, second: Mixture, *, share: float) -> Mixture:

@@ -47,6 +47,10 @@ and slope between hair (0.8 and 0.7 in the mean) and skin and clothes (0.0 and 0
 _MOST_ODDS = 2.0
 _ROOTED = 0.52
 """Prior of hair from which on hair may have its roots there: not below the chin."""
+_TO_SKIN = 2.0
+"""Logarithm of likelihood by which skin explains a patch better at which its strands say nothing; one less, and all."""
+_STEP_OF_HAIR = 14.0
+"""Step in Lab between neighbours that hair takes for nothing; each more costs a toll of 1 below the chin."""
 _RIM = 35.0
 """Step in Lab to a neighbour at which a patch's texture is half its own and half the outline of something."""
 _NEAR = 0.06
@@ -168,7 +172,7 @@ def _cut_layers(
     for number in range(params.rounds):
         look = log_likelihood(learnt_appearance(samples, weights=weights, strokes=stroke), samples)
         cost = _costs(look, prior, stroke, params)
-        cost = _with_reach(cost, roots, stroke, patches, prior, params)
+        cost = _with_reach(cost, roots, stroke, patches, prior, look, params)
         label = _cut_in_steps(cost, patches.edges, border, final=number == params.rounds - 1)
         weights = _weights_of_cut(label, prior, stroke, patches)
         weights[:, BODY] *= np.maximum(1 - _likeness(samples, look[:, HAIR]), 0.02)
@@ -201,7 +205,7 @@ def _greatest_step(patches: Superpixels) -> NDArray[np.float64]:
     """(N,) largest difference in Lab to a neighbour."""
     step = np.zeros(patches.count)
     first, second = patches.edges.T
-    difference = np.linalg.norm(patches.lab[first] - patches.lab[second], axis=1)
+    difference = _steps(patches, patches.edges)
     np.maximum.at(step, first, difference)
     np.maximum.at(step, second, difference)
     return step
@@ -265,22 +269,32 @@ def _with_reach(
     stroke: NDArray[np.uint8],
     patches: Superpixels,
     prior: NDArray[np.float64],
+    look: NDArray[np.float64],
     params: LayerParams,
 ) -> NDArray[np.float64]:
     """Costs (N, 4) in which hair is dearer the harder it is to get there from the hair's seeds, walking over what is
-    likely hair, and clothes are dearer where it is easy: long hair goes on downwards."""
+    likely hair in small steps of colour, and clothes are dearer where it is easy: long hair goes on downwards.
+    Strands speak for hair, but not where the colour is the skin's: an ear has edges too."""
     strand = params.strand_weight * _strand_odds(patches) * (cost[:, HAIR] < _NEVER)
+    strand = np.where(strand > 0, strand * np.clip(_TO_SKIN - (look[:, FACE] - look[:, HAIR]), 0, 1), strand)
     behind = cost[:, HAIR] - strand - cost[:, [BACKGROUND, BODY, FACE]].min(axis=1)
     toll = np.maximum(behind, 0)
     start = _largest_patchwork((seeds > 0.3 * seeds.max()) & (behind < 0) & (prior[:, HAIR] > _ROOTED), patches)
     edges = np.concatenate([patches.edges, _over_the_top(patches, (behind < 0) & (prior[:, HAIR] > 0.4))])
-    way = np.minimum(reach(toll, edges=edges, start=start | (stroke == HAIR)) - toll, _NEVER)
+    step = np.maximum(_steps(patches, edges) / _STEP_OF_HAIR - 1, 0)
+    step *= prior[edges, HAIR].min(axis=1) < _ROOTED  # from a hat to the hair below it is no step
+    way = np.minimum(reach(toll, edges=edges, start=start | (stroke == HAIR), step=step) - toll, _NEVER)
     cost = cost.copy()
     cost[:, HAIR] += np.minimum(params.reach_weight * way, params.most_reach)
     cost[:, HAIR] = np.maximum(cost[:, HAIR] - strand * np.exp(-way), 0)
     cost[:, BODY] += params.reach_bonus * (way < 1) * (prior[:, HAIR] > 0.1) * (1 - np.minimum(way, 1))
     cost[stroke == HAIR, HAIR] = 0
     return cost
+
+
+def _steps(patches: Superpixels, edges: NDArray[np.int32]) -> NDArray[np.float64]:
+    """(E,) difference in Lab of neighbours."""
+    return np.linalg.norm(patches.lab[edges[:, 0]] - patches.lab[edges[:, 1]], axis=1)
 
 
 def _over_the_top(patches: Superpixels, hairy: NDArray[np.bool_]) -> NDArray[np.int32]:

@@ -12,10 +12,17 @@ from scipy.sparse.csgraph import dijkstra
 _STEP = 1e-9
 
 
-def reach(toll: NDArray[np.float64], *, edges: NDArray[np.int32], start: NDArray[np.bool_]) -> NDArray[np.float64]:
+def reach(
+    toll: NDArray[np.float64],
+    *,
+    edges: NDArray[np.int32],
+    start: NDArray[np.bool_],
+    step: NDArray[np.float64] | float = 0.0,
+) -> NDArray[np.float64]:
     """Least sum of tolls (N,) on a way from any node of `start` (N,) to every node, the node's own toll included.
 
-    `toll` (N,) >= 0 is paid on entering a node; starting is free. Infinite where no way leads.
+    `toll` (N,) >= 0 is paid on entering a node, `step` (E,) >= 0 on crossing an edge; starting is free. Infinite where
+    no way leads.
 
     Each step costs 1e-9 more, because a sparse graph has no edge of length 0.
 
@@ -30,6 +37,7 @@ def reach(toll: NDArray[np.float64], *, edges: NDArray[np.int32], start: NDArray
     rows = np.concatenate([edges[:, 0], edges[:, 1], np.full(len(origin), count)])
     columns = np.concatenate([edges[:, 1], edges[:, 0], origin])
     entering = toll[columns] + _STEP
-    entering[len(edges) * 2 :] = _STEP
+    entering[: 2 * len(edges)] += np.tile(np.broadcast_to(step, len(edges)), 2)
+    entering[2 * len(edges) :] = _STEP
     graph = csr_matrix((entering, (rows, columns)), shape=(count + 1, count + 1))
     return dijkstra(graph, indices=count)[:count]

@@ -16,7 +16,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from tress.head.landmarks import CHIN, FACE_OVAL, FOREHEAD, FaceLandmarks
+from tress.head.landmarks import CHIN, FOREHEAD, FaceLandmarks
 from tress.image.labels import BACKGROUND, BODY, FACE, HAIR, LAYER_COUNT
 
 HEAD_HEIGHT: Final = 1.3
@@ -28,8 +28,21 @@ _CRANIUM_RADII: Final = np.array([0.45, 0.58, 0.57])
 """Half breadth, height, length of the cranium."""
 _CRANIUM_ABOVE_EARS: Final = 0.22
 _CRANIUM_BEHIND_EARS: Final = 0.12
-_EAR_BEHIND_SIDE: Final = 0.12
-_EAR_RADIUS: Final = 0.15
+_PER_FAR: Final = 2.0
+_MOST_FAR: Final = 0.6
+"""Logarithm of odds against the person for each radius of the cranium that a place is farther out, up to the most."""
+_EAR_BEHIND_SIDE: Final = 0.15
+_EAR_RADIUS: Final = 0.16
+_EYES: Final = (
+    (33, 7, 163, 144, 145, 153, 154, 155, 133, 173, 157, 158, 159, 160, 161, 246, 46, 53, 52, 65, 55),
+    (263, 249, 390, 373, 374, 380, 381, 382, 362, 398, 384, 385, 386, 387, 388, 466, 276, 283, 282, 295, 285),
+)
+"""Each eye with the lower rim of its brow."""
+_NOSE: Final = (168, 6, 197, 195, 5, 4, 1, 19, 94, 2, 98, 327, 129, 358)
+_MOUTH: Final = (61, 185, 40, 39, 37, 0, 267, 269, 270, 409, 291, 375, 321, 405, 314, 17, 84, 181, 91, 146)
+_GLASSES_BEFORE_EYES: Final = 0.1
+_FEATURE_RIM: Final = 0.05
+"""How far eyes, nose and mouth reach beyond their points."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +71,7 @@ def face_frame(landmarks: FaceLandmarks) -> FaceFrame:
     forward = np.cross(right, up) * (-1 if np.cross(right, up)[2] < 0 else 1)
     axes = np.stack([right, up, forward])
     sides = points[[_RIGHT_SIDE, _LEFT_SIDE]]
-    ears = sides - height * _EAR_BEHIND_SIDE * forward - height * 0.05 * up
+    ears = sides - height * _EAR_BEHIND_SIDE * forward - height * 0.01 * up
     center = sides.mean(axis=0) + height * (_CRANIUM_ABOVE_EARS * up - _CRANIUM_BEHIND_EARS * forward)
     radii = height * _CRANIUM_RADII
     spread = (axes.T @ np.diag(radii**2) @ axes)[:2, :2]
@@ -75,7 +88,8 @@ def location_prior(landmarks: FaceLandmarks, *, person: NDArray[np.float32]) -> 
     size = (max(1, round(width * scale)), max(1, round(height * scale)))
     zones = _zones(landmarks, face_frame(landmarks), size, scale)
     inside = _of_person(zones)
-    mask = np.clip(cv2.resize(person, size, interpolation=cv2.INTER_AREA), 0.003, 0.997)
+    small = np.asarray(cv2.resize(person, size, interpolation=cv2.INTER_AREA), np.float32)
+    mask = _sharpened(np.clip(small, 0.003, 0.997), zones)
     prior = np.empty((size[1], size[0], LAYER_COUNT), np.float32)
     prior[..., 1:] = inside * mask[..., None]
     prior[..., BACKGROUND] = 1 - mask
@@ -86,8 +100,8 @@ def location_prior(landmarks: FaceLandmarks, *, person: NDArray[np.float32]) -> 
 @dataclass(frozen=True)
 class _Zones:
     """Coordinates of every pixel (h, w), in face heights: `along` right and `above` the eyes, `outside` the face's
-    outline (negative inside), `over_brows` above the brow line, `cranium` (1 on the bare cranium's outline); `ears` in
-    [0, 1]."""
+    outline (negative inside), `over_brows` above the brow line, `cranium` (1 on the bare cranium's outline); `ears` and
+    `features` (eyes, glasses, nose, mouth) in [0, 1]."""
 
     along: NDArray[np.float32]
     above: NDArray[np.float32]
@@ -95,6 +109,15 @@ class _Zones:
     over_brows: NDArray[np.float32]
     cranium: NDArray[np.float32]
     ears: NDArray[np.float32]
+    features: NDArray[np.float32]
+
+
+def _sharpened(mask: NDArray[np.floating], zones: _Zones) -> NDArray[np.float32]:
+    """The person mask, where it is in doubt, less the farther from the cranium above the chin: a small head's mask is
+    wider than the head."""
+    far = np.clip(zones.cranium - 1.1, 0, _MOST_FAR) * _step(zones.above, -0.7, -0.4)
+    odds = np.log(mask / (1 - mask)) - _PER_FAR * far
+    return np.asarray(1 / (1 + np.exp(-odds)), np.float32)
 
 
 def _zones(landmarks: FaceLandmarks, frame: FaceFrame, size: tuple[int, int], scale: float) -> _Zones:
@@ -108,10 +131,20 @@ def _zones(landmarks: FaceLandmarks, frame: FaceFrame, size: tuple[int, int], sc
     cranium = np.sqrt(np.einsum("hwi,ij,hwj->hw", off, np.linalg.inv(frame.spread), off))
     above = away @ up
     over_brows = above - brows @ up / frame.height_px
-    outside = _distance_outside(landmarks.points[list(FACE_OVAL), :2] * scale, size) / (frame.height_px * scale)
-    return _Zones(
-        *(np.asarray(a, np.float32) for a in (away @ right, above, outside, over_brows, cranium, _ears(place, frame)))
-    )
+    unit = frame.height_px * scale
+    outside = _distance_outside([landmarks.points[:, :2] * scale], size) / unit
+    features = _distance_outside([part * scale for part in _feature_points(landmarks, frame)], size) / unit
+    near = _step(-features, -_FEATURE_RIM, 0.0)
+    zones = (away @ right, above, outside, over_brows, cranium, _ears(place, frame), near)
+    return _Zones(*(np.asarray(zone, np.float32) for zone in zones))
+
+
+def _feature_points(landmarks: FaceLandmarks, frame: FaceFrame) -> list[NDArray[np.floating]]:
+    """Points (K, 2) px around each eye with its glasses, the nose and the mouth."""
+    points = landmarks.points[:, :2]
+    before = _GLASSES_BEFORE_EYES * frame.height_px * frame.axes[2, :2]
+    eyes = [np.concatenate([points[list(eye)], points[list(eye)] + before]) for eye in _EYES]
+    return [*eyes, points[list(_NOSE)], points[list(_MOUTH)]]
 
 
 def _ears(place: NDArray[np.floating], frame: FaceFrame) -> NDArray[np.float64]:
@@ -122,9 +155,11 @@ def _ears(place: NDArray[np.floating], frame: FaceFrame) -> NDArray[np.float64]:
     return np.maximum(*bumps)
 
 
-def _distance_outside(outline: NDArray[np.floating], size: tuple[int, int]) -> NDArray[np.float32]:
+def _distance_outside(parts: list[NDArray[np.floating]], size: tuple[int, int]) -> NDArray[np.float32]:
+    """Distance (h, w) from the convex hulls of points (K, 2), negative inside them."""
     inside = np.zeros((size[1], size[0]), np.uint8)
-    cv2.fillPoly(inside, [np.rint(outline - 0.5).astype(np.int32)], 1)
+    for points in parts:
+        cv2.fillConvexPoly(inside, cv2.convexHull(np.rint(points - 0.5).astype(np.int32)), 1)
     out = cv2.distanceTransform(1 - inside, cv2.DIST_L2, 5)
     deep = cv2.distanceTransform(inside, cv2.DIST_L2, 5)
     return np.asarray(out - deep, np.float32)
@@ -134,6 +169,7 @@ def _of_person(zones: _Zones) -> NDArray[np.float32]:
     """Body, face and hair (h, w, 3), adding up to 1: what a pixel of the person may be."""
     prior = _around_face(zones)
     prior = _blend(prior, _in_face(zones), _step(-zones.outside, 0.0, 0.02))
+    prior = _blend(prior, _constant(zones.features, 0.0, 1.0, 0.0), zones.features)
     return np.asarray(prior / prior.sum(axis=-1, keepdims=True), np.float32)
 
 
@@ -142,7 +178,7 @@ def _around_face(zones: _Zones) -> NDArray[np.float32]:
     over = _cap(zones)
     under = _below_chin(zones)
     prior = _blend(beside, over, _step(zones.above, -0.1, 0.15))
-    prior = _blend(prior, _stack(*(np.full_like(zones.ears, p) for p in (0.03, 0.6, 0.37))), zones.ears)
+    prior = _blend(prior, _constant(zones.ears, 0.03, 0.6, 0.37), zones.ears)
     return _blend(prior, under, _step(-zones.above, 0.5, 0.75))
 
 
@@ -165,7 +201,8 @@ def _below_chin(zones: _Zones) -> NDArray[np.float32]:
     """Throat, chest and shoulders: skin and clothes; hair hangs at the sides and gets rarer downwards."""
     throat = np.exp(-((zones.along / 0.28) ** 2)) * _step(zones.above, -1.3, -0.9)
     down = _step(-zones.above, 0.6, 2.4)
-    hair = (0.5 - 0.3 * down) * (1 - 0.9 * throat)
+    aside = _step(np.abs(zones.along), 0.7, 1.4)
+    hair = (0.5 - 0.3 * down) * (1 - 0.9 * throat) * (1 - 0.75 * aside)
     skin = 0.5 * throat + 0.06 * (1 - down)
     return _stack(1 - hair - skin, skin, hair)
 
@@ -178,10 +215,14 @@ def _in_face(zones: _Zones) -> NDArray[np.float32]:
     return _stack(np.full_like(hair, 0.003), 1 - hair, hair)
 
 
+def _constant(like: NDArray[np.float32], body: float, face: float, hair: float) -> NDArray[np.float32]:
+    return _stack(*(np.full_like(like, part) for part in (body, face, hair)))
+
+
 def _stack(body: NDArray, face: NDArray, hair: NDArray) -> NDArray[np.float32]:
     layers = {BODY: body, FACE: face, HAIR: hair}
     stacked = np.stack([layers[k] for k in (BODY, FACE, HAIR)], axis=-1)
-    return np.asarray(np.maximum(stacked, 0.002), np.float32)
+    return np.asarray(np.maximum(stacked, 0.0005), np.float32)
 
 
 def _blend(first: NDArray[np.float32], second: NDArray[np.float32], share: NDArray[np.float32]) -> NDArray[np.float32]:
