@@ -118,6 +118,11 @@ def grown(draw):
     return {"names": [draw.strip()], "surface": "head", "triangles": chosen, "into": into, "flow": BALL.positions}
 
 
+def combed(draw):
+    way = draw.vector(1.0)
+    return {"names": [draw.strip()], "surface": "head", "flow": lambda points: np.broadcast_to(way, points.shape)}
+
+
 def turned(draw):
     move = np.eye(4)
     move[:3, 3] = draw.vector()
@@ -127,6 +132,7 @@ def turned(draw):
 PLANS = {
     "add": lambda draw: {"records": {draw.new(): Group(parent=draw.group())}},
     "attach": grown,
+    "comb": combed,
     "cover": lambda draw: {"names": draw.strips(), "atlas": draw.rng.choice(["", "atlas"]), "regions": [0]},
     "delete": lambda draw: {"names": [draw.of(Strip, Group, Keyframes)]},
     "detach": lambda draw: {"names": draw.strips()},

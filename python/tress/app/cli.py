@@ -12,6 +12,7 @@ from tress.app.exit_codes import INTERRUPTED
 from tress.app.info_command import info
 from tress.app.params_command import params
 from tress.app.portrait_command import portrait
+from tress.app.strips_command import strips
 from tress.app.texture_command import texture
 
 EPILOG = (
@@ -29,6 +30,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.command()(portrait)
+app.command()(strips)
 app.command()(texture)
 app.command()(params)
 app.command()(info)

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 
 from tress.edit.add import add
 from tress.edit.attach import attach
+from tress.edit.comb import comb
 from tress.edit.cover import cover
 from tress.edit.delete import delete
 from tress.edit.detach import detach
@@ -29,6 +30,7 @@ EDITS: Mapping[str, Callable[..., Diff]] = {
     for edit in (
         add,
         attach,
+        comb,
         cover,
         delete,
         detach,

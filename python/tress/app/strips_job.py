@@ -1,0 +1,89 @@
+"""One hairdo to one folder: the job that the command runs."""
+
+import dataclasses
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from PIL import Image
+
+from tress.app.saved_document import opened
+from tress.base.errors import InputError
+from tress.base.report import Report
+from tress.io.atomic import OutputFolder
+from tress.io.formats.registry import format_of
+from tress.io.report_file import write_report
+from tress.methods.strips.appearance import BROWN, Color, gouraud_scene, preview
+from tress.methods.strips.bald_document import HEAD
+from tress.methods.strips.hairdo import hairdo
+from tress.methods.strips.params import StripsParams
+from tress.methods.strips.presets.registry import preset_of
+from tress.model.document import Document
+from tress.model.head import Head
+from tress.render.flat_scene import flat_scene
+from tress.render.styles.photo import PhotoStyle
+from tress.render.textures.params import TextureParams
+from tress.render.textures.strand_atlas import strand_atlas
+from tress.render.turntable import turntable
+from tress.render.video import write_webm
+
+ATLAS_PX, ROOT_SHADE, TIP_LIGHT = 1024, 0.6, 1.35
+
+
+@dataclass(frozen=True)
+class StripsOptions:
+    """What the user asked for; the fields are those of `tress strips --help`."""
+
+    preset: str
+    folder: Path
+    params: StripsParams = field(default_factory=StripsParams)
+    color: Color = BROWN
+    head: Path | None = None
+    formats: tuple[str, ...] = ("usdc", "glb")
+    turntable: bool = True
+
+
+@dataclass(frozen=True)
+class Delivery:
+    """What was written: a folder and the files in it, relative to it."""
+
+    folder: Path
+    files: tuple[Path, ...]
+
+
+def run_strips(options: StripsOptions, *, report: Report) -> Delivery:
+    """Grows the hairdo and delivers it. Raises the errors of both; then nothing was written."""
+    preset_of(options.preset)
+    formats = {f"hair.{ending}": format_of(Path(f"hair.{ending}")) for ending in options.formats}
+    head = None if options.head is None else fitted_head(options.head)
+    with report.stage("strands"):
+        atlas = strand_atlas(texture_params(options), report=report)
+    document = hairdo(options.preset, params=options.params, atlas=atlas, head=head, report=report)
+    with OutputFolder(options.folder) as output:
+        with report.stage("formats"):
+            for name, form in formats.items():
+                form.write(document, output.path / name)
+        with report.stage("preview"):
+            Image.fromarray(preview(document, color=options.color)).save(output.path / "preview.png", compress_level=4)
+        if options.turntable:
+            with report.stage("turntable"):
+                scene = flat_scene(gouraud_scene(document, color=options.color))
+                write_webm(output.path / "turntable.webm", frames=turntable(scene, style=PhotoStyle(), report=report))
+        facts = {"preset": options.preset, "parameters": dataclasses.asdict(options.params)}
+        write_report(report, output.path / "report.json", facts=facts)
+        files = tuple(sorted(file.relative_to(output.path) for file in output.path.rglob("*") if file.is_file()))
+    return Delivery(options.folder, files)
+
+
+def texture_params(options: StripsOptions) -> TextureParams:
+    """Strands in the colour of the hair: darker at the root, lighter at the tip."""
+    red, green, blue = (min(value * TIP_LIGHT, 1.0) for value in options.color)
+    root = (options.color[0] * ROOT_SHADE, options.color[1] * ROOT_SHADE, options.color[2] * ROOT_SHADE)
+    return TextureParams(resolution=ATLAS_PX, root_color=root, tip_color=(red, green, blue), seed=options.params.seed)
+
+
+def fitted_head(path: Path) -> Document:
+    """The head of a saved document, alone. Raises `InputError` where it has none, or no mask of its scalp."""
+    record = opened(path).records.get(HEAD)
+    if not isinstance(record, Head) or "scalp" not in record.mesh.vertex_attributes:
+        raise InputError(f"{path} holds no head with a scalp; name the hair.usdc of `tress portrait`.")
+    return Document({HEAD: record})

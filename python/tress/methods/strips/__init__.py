@@ -1,0 +1,1 @@
+"""Hair in strips: presets made of edits, levels of detail, motion."""

@@ -1,0 +1,65 @@
+"""Roots for strips: evenly spread over a part of the scalp."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from tress.base.errors import InputError
+from tress.head.scalp import scalp_roots
+from tress.model.mesh import Mesh
+
+Array = np.ndarray[Any, Any]
+
+CANDIDATES = 12  # for each root
+
+
+@dataclass(frozen=True, eq=False)
+class EvenRoots:
+    """N places on a surface, as `attach` takes them: `triangles` (N,) int32 and `barycentric` (N, 3) float64; and the
+    `points` (N, 3) there."""
+
+    triangles: Array
+    barycentric: Array
+    points: Array
+
+    def where(self, chosen: Array) -> "EvenRoots":
+        """Those that are `chosen` (N,) bool."""
+        return EvenRoots(self.triangles[chosen], self.barycentric[chosen], self.points[chosen])
+
+
+def even_roots(
+    mesh: Mesh, *, count: int, seed: int, where: Callable[[Array], Array] | None = None, least_scalp: float = 0.5
+) -> EvenRoots:
+    """`count` places on the scalp of a mesh, each as far from the others as may be.
+
+    `where(points)` (N,) bool chooses among places (N, 3), `least_scalp` keeps them off the rim of the mask. The same
+    seed gives the same places. Raises `InputError` where the mesh has no mask `scalp` or nothing is chosen.
+    """
+    scalp = mesh.vertex_attributes.get("scalp")
+    if scalp is None:
+        raise InputError("The mesh has no mask `scalp`; roots need one.")
+    found = scalp_roots(
+        mesh.positions, triangles=mesh.triangles, scalp=scalp, count=CANDIDATES * max(count, 40), seed=seed
+    )
+    share = np.einsum("nk,nk->n", found.barycentric, scalp[mesh.triangles[found.triangle]])
+    allowed = share >= least_scalp
+    if where is not None:
+        allowed &= where(found.positions)
+    if not allowed.any():
+        raise InputError("No place on the scalp was chosen; a wider choice was expected.")
+    index = np.flatnonzero(allowed)
+    index = index[_far_apart(found.positions[index], count)]
+    weights = found.barycentric[index].astype(np.float64)
+    return EvenRoots(found.triangle[index], weights / weights.sum(axis=1, keepdims=True), found.positions[index])
+
+
+def _far_apart(points: Array, count: int) -> Array:
+    """Up to `count` of the points, each time the one that is farthest from those before it."""
+    chosen = [0]
+    gap = np.linalg.norm(points - points[0], axis=1)
+    while len(chosen) < min(count, len(points)):
+        chosen.append(int(np.argmax(gap)))
+        gap = np.minimum(gap, np.linalg.norm(points - points[chosen[-1]], axis=1))
+    return np.array(chosen)

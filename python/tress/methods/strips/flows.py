@@ -1,0 +1,69 @@
+"""Flow fields: which way hair is combed at a point of space. Each is a function that makes one; they add up."""
+
+from typing import Any
+
+import numpy as np
+
+from tress.edit.comb import Flow
+
+Array = np.ndarray[Any, Any]
+
+
+def steady(direction: Any) -> Flow:
+    """The same way everywhere; a length above 1 weighs more in a sum."""
+    vector = np.asarray(direction, np.float64)
+    return lambda points: np.broadcast_to(vector, points.shape)
+
+
+def parted(x_m: float = 0.0, *, back: float = 0.0, below_m: float = 0.02) -> Flow:
+    """To both sides of a parting line on top of the head, at `x_m`, and a share of it to the `back`.
+
+    The way aside fades out on the way down, from the crown to the height `below_m`.
+    """
+
+    def flow(points: Array) -> Array:
+        side = np.where(points[:, 0] >= x_m, 1.0, -1.0)
+        above = np.clip((points[:, 1] - below_m) / 0.06, 0, 1)
+        return np.stack([side * above, np.zeros(len(points)), -back * above], axis=1)
+
+    return flow
+
+
+def whorl(centre: Any, *, swirl: float = 0.6, reach_m: float = 0.1) -> Flow:
+    """Away from a point of the scalp, turned about it by `swirl` (counter-clockwise from above), fading."""
+    middle = np.asarray(centre, np.float64)
+
+    def flow(points: Array) -> Array:
+        away = points - middle
+        distance = np.linalg.norm(away, axis=1, keepdims=True).clip(1e-9)
+        turned = np.stack([away[:, 2], 0 * away[:, 0], -away[:, 0]], axis=1)
+        return (away + swirl * turned) / distance * np.exp(-((distance / reach_m) ** 2))
+
+    return flow
+
+
+def towards(target: Any) -> Flow:
+    """To a point, as to the tie of a ponytail."""
+    place = np.asarray(target, np.float64)
+
+    def flow(points: Array) -> Array:
+        way = place - points
+        return way / np.linalg.norm(way, axis=1, keepdims=True).clip(1e-9)
+
+    return flow
+
+
+def off_the_face(*, z_m: float = 0.035, below_m: float = 0.03) -> Flow:
+    """Aside and back wherever hair would hang over the face."""
+
+    def flow(points: Array) -> Array:
+        x, y, z = points.T
+        before = np.clip((z - z_m) / 0.02, 0, 1) * np.clip((below_m - y) / 0.03, 0, 1)
+        return np.stack([np.sign(x) * before, np.zeros(len(x)), -before], axis=1)
+
+    return flow
+
+
+def added(*flows: Flow) -> Flow:
+    """The sum of flows."""
+    return lambda points: np.sum([flow(points) for flow in flows], axis=0)

@@ -1,0 +1,51 @@
+"""Long straight hair with a parting in the middle."""
+
+import numpy as np
+
+from tress.edit.variation import Variation
+from tress.methods.strips.bald_document import HEAD
+from tress.methods.strips.even_roots import even_roots
+from tress.methods.strips.flows import added, off_the_face, parted, steady
+from tress.methods.strips.layers import with_layer
+from tress.methods.strips.params import StripsParams
+from tress.methods.strips.patterns import lock
+from tress.model.attachment import surface_mesh
+from tress.model.document import Document
+
+FLOW = added(steady((0, -1, -0.04)), parted(0.0, back=0.3), off_the_face())
+LAYERS = (("under", 0.36, 0.040, 0.003), ("middle", 0.34, 0.032, 0.005), ("over", 0.22, 0.022, 0.008))
+"""Group, share of the strips, width and lift in metres: wide strips close to the head, narrow ones over them."""
+PARTING = 0.08
+"""Share of the strips that stand on the parting line itself."""
+IRREGULAR = Variation(turn_low=-0.1, turn_high=0.1, tilt_high=0.1, length_low=0.8, length_high=1.05)
+
+
+def long_straight(document: Document, params: StripsParams) -> Document:
+    """Long and straight, parted in the middle."""
+    mesh = surface_mesh(document, HEAD, where="A preset")
+    for index, (name, share, width_m, lift_m) in enumerate(LAYERS):
+        pattern = lock(length_m=0.4 * params.length, width_m=width_m * params.widening, tip_width=0.3, rows=10)
+        document = with_layer(
+            document,
+            into=name,
+            patterns=[(pattern, even_roots(mesh, count=params.count(share), seed=params.seed + index))],
+            flow=FLOW,
+            variation=IRREGULAR,
+            seed=params.seed + 100 * index,
+            lift_m=lift_m,
+            rise_m=0.05,
+        )
+    on_line = even_roots(
+        mesh, count=params.count(PARTING), seed=params.seed, where=lambda points: np.abs(points[:, 0]) < 0.005
+    )
+    pattern = lock(length_m=0.4 * params.length, width_m=0.02 * params.widening, tip_width=0.3, rows=10)
+    return with_layer(
+        document,
+        into="parting",
+        patterns=[(pattern, on_line)],
+        flow=FLOW,
+        variation=IRREGULAR,
+        seed=params.seed + 900,
+        lift_m=0.008,
+        rise_m=0.04,
+    )
