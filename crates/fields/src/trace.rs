@@ -367,8 +367,11 @@ impl Tracer<'_> {
     fn head_distance(&self, point: DVec3) -> f64 {
         let (mut sum, mut total) = (0.0, 0.0);
         self.around(point, |index, share| {
-            sum += share * f64::from(self.field.head_distance[index]);
-            total += share;
+            // Nothing of an infinite distance is nothing.
+            if share > 0.0 {
+                sum += share * f64::from(self.field.head_distance[index]);
+                total += share;
+            }
         });
         if total > 0.5 { sum / total } else { f64::INFINITY }
     }
