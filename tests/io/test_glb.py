@@ -1,11 +1,9 @@
 """GLB: the Khronos validator finds nothing, colours and texture coordinates are those of the scene."""
 
-import json
-import struct
-
 import numpy as np
 import pytest
 from documents import documents
+from glb_reader import parsed
 from gltf_validator import validator_report
 from hypothesis import HealthCheck, given, settings
 
@@ -17,23 +15,6 @@ from tress.model.evaluate import Scene, evaluate
 from tress.model.mesh import Mesh
 from tress.model.strands import Strands
 from tress.model.texture import Texture
-
-COMPONENTS = {5126: "<f4", 5125: "<u4", 5123: "<u2"}
-WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
-
-
-def parsed(data):
-    """The JSON and the arrays of a file: a reader that knows nothing of the writer."""
-    magic, version, length, json_length, json_kind = struct.unpack_from("<4sIII4s", data)
-    assert (magic, version, length, json_kind) == (b"glTF", 2, len(data), b"JSON")
-    document = json.loads(data[20 : 20 + json_length])
-    binary = data[28 + json_length :]
-    views = [binary[view["byteOffset"] :][: view["byteLength"]] for view in document.get("bufferViews", [])]
-    arrays = [
-        np.frombuffer(views[entry["bufferView"]], COMPONENTS[entry["componentType"]]).reshape(-1, WIDTHS[entry["type"]])
-        for entry in document.get("accessors", [])
-    ]
-    return document, arrays, views
 
 
 def wig(count=40, points=9):

@@ -10,6 +10,7 @@ from tress import __version__
 from tress.app.convert_command import convert
 from tress.app.exit_codes import INTERRUPTED
 from tress.app.info_command import info
+from tress.app.lod_command import lod
 from tress.app.params_command import params
 from tress.app.portrait_command import portrait
 from tress.app.strips_command import strips
@@ -32,6 +33,7 @@ app = typer.Typer(
 app.command()(portrait)
 app.command()(strips)
 app.command()(texture)
+app.command()(lod)
 app.command()(params)
 app.command()(info)
 app.command()(convert)

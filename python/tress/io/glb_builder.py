@@ -38,10 +38,13 @@ class GlbBuilder:
         if name not in used:
             used.append(name)
 
-    def add_accessor(self, values: np.ndarray[Any, Any], *, target: int, normalized: bool = False) -> int:
-        """An accessor over (N,) or (N, 2 | 3 | 4) values of float32, uint32, uint16 or uint8, in rows of whole 4 bytes.
+    def add_accessor(
+        self, values: np.ndarray[Any, Any], *, target: int | None, normalized: bool = False, limits: bool = False
+    ) -> int:
+        """An accessor over (N,) or (N, 2 | 3 | 4) values of float32, uint32, uint16 or uint8, in rows of whole 4 bytes
+        where they are vertices.
 
-        Its limits are written for floats, as positions need them.
+        Its limits are written for vectors of three floats, as positions need them, and with `limits`, as times do.
         """
         entry: dict[str, Any] = {
             "bufferView": self._add_view(values.tobytes(), target=target),
@@ -53,6 +56,8 @@ class GlbBuilder:
             entry["normalized"] = True
         if values.dtype == np.float32 and values.ndim == 2 and values.shape[1] == 3:
             entry |= {"min": values.min(axis=0).tolist(), "max": values.max(axis=0).tolist()}
+        elif limits:
+            entry |= {"min": [values.min().item()], "max": [values.max().item()]}
         return self.add("accessors", entry)
 
     def add_png(self, data: bytes, *, name: str) -> int:

@@ -46,7 +46,18 @@ def strip_grid(strips: Sequence[Strip], *, pieces: tuple[int, int] | None = None
     About 20 µs a strip, where the strips have the same knots.
     """
     shared: dict[tuple[Any, ...], _Patch] = {}
-    patches = [_patch(strip, pieces or strip.degrees, density, shared) for strip in strips]
+    return _grid(strips, [_by_span(strip, pieces or strip.degrees, density, shared) for strip in strips])
+
+
+def even_strip_grid(strips: Sequence[Strip], *, segments: Array) -> StripGrid:
+    """A grid over each strip with `segments` (S, 2) equal intervals of its domain along and across: what a budget of
+    triangles allows it."""
+    shared: dict[tuple[Any, ...], _Patch] = {}
+    pairs = zip(strips, np.asarray(segments).tolist(), strict=True)
+    return _grid(strips, [_even(strip, counts, shared) for strip, counts in pairs])
+
+
+def _grid(strips: Sequence[Strip], patches: Sequence["_Patch"]) -> StripGrid:
     sizes = np.array([len(patch.fraction) for patch in patches], np.int64)
     offsets = np.concatenate([np.zeros(1, np.int64), np.cumsum(sizes)])
     triangles = [patch.triangles + start for patch, start in zip(patches, offsets[:-1], strict=True)]
@@ -69,12 +80,29 @@ class _Patch:
     triangles: Array
 
 
-def _patch(strip: Strip, pieces: tuple[int, int], density: int, shared: dict[tuple[Any, ...], _Patch]) -> _Patch:
+def _by_span(strip: Strip, pieces: tuple[int, int], density: int, shared: dict[tuple[Any, ...], _Patch]) -> _Patch:
     key = (strip.knots_u.tobytes(), strip.knots_v.tobytes(), strip.weights.shape)
     if key not in shared:
         along, across = strip.weights.shape
-        samples_u = _samples(strip.knots_u, along, pieces[0] * density)
-        shared[key] = _new_patch(samples_u, _samples(strip.knots_v, across, pieces[1] * density), across)
+        samples_u = _samples(strip.knots_u, along, _parameters_by_span(strip.knots_u, along, pieces[0] * density))
+        parameters_v = _parameters_by_span(strip.knots_v, across, pieces[1] * density)
+        shared[key] = _new_patch(samples_u, _samples(strip.knots_v, across, parameters_v), across)
+    return shared[key]
+
+
+def _even(strip: Strip, segments: Sequence[int], shared: dict[tuple[Any, ...], _Patch]) -> _Patch:
+    key = (strip.knots_u.tobytes(), strip.knots_v.tobytes(), strip.weights.shape, *segments)
+    if key not in shared:
+        along, across = strip.weights.shape
+        parameters = [
+            np.linspace(*domain_of(knots, count=count), pieces + 1)
+            for knots, count, pieces in zip((strip.knots_u, strip.knots_v), (along, across), segments, strict=True)
+        ]
+        samples_u, samples_v = (
+            _samples(strip.knots_u, along, parameters[0]),
+            _samples(strip.knots_v, across, parameters[1]),
+        )
+        shared[key] = _new_patch(samples_u, samples_v, across)
     return shared[key]
 
 
@@ -87,12 +115,15 @@ class _Samples:
     first: Array
 
 
-def _samples(knots: Array, count: int, pieces: int) -> _Samples:
-    degree = degree_of(knots, count=count)
-    breaks = np.unique(knots[degree : count + 1])
+def _parameters_by_span(knots: Array, count: int, pieces: int) -> Array:
+    breaks = np.unique(knots[degree_of(knots, count=count) : count + 1])
     cuts = np.arange(pieces) / pieces
     inner = breaks[:-1, None] * (1 - cuts) + breaks[1:, None] * cuts
-    parameters = np.clip(np.append(inner.ravel(), breaks[-1]), breaks[0], breaks[-1])
+    return np.clip(np.append(inner.ravel(), breaks[-1]), breaks[0], breaks[-1])
+
+
+def _samples(knots: Array, count: int, parameters: Array) -> _Samples:
+    degree = degree_of(knots, count=count)
     splines = BSpline.design_matrix(parameters, knots, degree)
     low, high = domain_of(knots, count=count)
     return _Samples(

@@ -16,14 +16,18 @@ import numpy as np
 from tress import __version__
 from tress.base.params import Params, choice
 from tress.io.atomic import write_bytes
+from tress.io.card_levels import CardLevels, card_levels, plain_level
 from tress.io.format import Format
 from tress.io.glb_builder import ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER, LINES, TRIANGLES, GlbBuilder
 from tress.io.png import encode_png
 from tress.io.ribbons import RibbonParams, ribbons, thinned
+from tress.io.strip_glb import CardParams, add_levels
 from tress.model.document import Document
-from tress.model.evaluate import Scene, evaluate
+from tress.model.evaluate import Scene
+from tress.model.group import Group
 from tress.model.mesh import Mesh
 from tress.model.strands import Strands
+from tress.model.strip import Strip
 
 Array = np.ndarray[Any, Any]
 
@@ -39,22 +43,44 @@ class GlbParams(Params):
     hair: str = choice("ribbons", options=("ribbons", "lines"), doc="Thin ribbons, or lines of one pixel.")
     light: str = choice("unlit", options=("unlit", "lit"), doc="Colours as they are, or lit by the viewer.")
     ribbons: RibbonParams = field(default_factory=RibbonParams)
+    cards: CardParams = field(default_factory=CardParams)
 
 
-def encode_glb(scene: Scene, *, params: GlbParams | None = None) -> bytes:
-    """The file's bytes, one node for each of the strands and meshes; the same scene gives the same bytes."""
+def encode_glb(scene: Scene, *, params: GlbParams | None = None, strips: CardLevels | None = None) -> bytes:
+    """The file's bytes, one node for each of the strands and meshes; the same scene gives the same bytes.
+
+    `strips` are levels of detail of strips, which move, beside the scene.
+    """
     params = params or GlbParams()
     builder = GlbBuilder(generator=f"Tress {__version__}")
     nodes = [_add_mesh(builder, name, mesh, params) for name, mesh in scene.meshes.items() if len(mesh.triangles)]
     nodes += [_add_hair(builder, name, hair, params) for name, hair in scene.strands.items() if hair.count]
+    if strips is not None:
+        nodes.append(
+            add_levels(
+                builder, strips.levels, name="strips", motion=strips.motion, step=strips.step, params=params.cards
+            )
+        )
     root: dict[str, Any] = {"name": "tress"} | ({"nodes": nodes} if nodes else {})
     builder.json |= {"scenes": [root], "scene": 0}
     return builder.encoded()
 
 
 def write_glb(document: Document, path: Path) -> None:
-    """Writes all strands and meshes of a document with the default `GlbParams`."""
-    write_bytes(path, encode_glb(evaluate(document)))
+    """Writes all strands, meshes and strips of a document with the default `GlbParams`; strips with their motion."""
+    level = plain_level(document)
+    strips = None if level is None else card_levels(document, [level])
+    write_bytes(path, encode_glb(scene_beside_strips(document), strips=strips))
+
+
+def scene_beside_strips(document: Document) -> Scene:
+    """What there is to see of a document without its strips and groups."""
+    others = {name: item for name, item in document.records.items() if not isinstance(item, Strip | Group)}
+    found = {name: record.evaluated(document, 0.0, name=name) for name, record in others.items()}
+    return Scene(
+        strands={name: seen for name, seen in found.items() if isinstance(seen, Strands)},
+        meshes={name: seen for name, seen in found.items() if isinstance(seen, Mesh)},
+    )
 
 
 FORMAT = Format("glb", (".glb",), write_glb)

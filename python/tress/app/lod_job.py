@@ -1,0 +1,160 @@
+"""One folder with levels of detail: the job that the command runs."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+from tress.app.saved_document import opened
+from tress.base.color import linear_to_srgb8
+from tress.base.report import Report
+from tress.io.atomic import OutputFolder
+from tress.io.card_levels import CardLevels, card_levels
+from tress.io.formats.glb import GlbParams, encode_glb, scene_beside_strips
+from tress.io.report_file import write_report
+from tress.io.strip_glb import CardParams, encode_levels
+from tress.methods.strips.level_likeness import Likeness, level_points, likeness, spacing_for, views_of
+from tress.methods.strips.level_switch import HYSTERESIS
+from tress.methods.strips.levels import LevelChain, LevelParams, level_chain
+from tress.model.document import Document
+from tress.render.card_points import CardView
+from tress.render.preview import contact_sheet
+from tress.render.turntable import BACKDROP
+
+Array = np.ndarray[Any, Any]
+
+NAME = "hair"
+PREVIEW_PX_PER_M = 900.0
+PREVIEW_VIEWS = 2
+PREVIEW_HEIGHT = 420
+
+
+@dataclass(frozen=True)
+class LodOptions:
+    """What the user asked for; the fields are those of `tress lod --help`."""
+
+    source: Path
+    folder: Path
+    budgets: tuple[int, ...]
+    levels: LevelParams = field(default_factory=LevelParams)
+    cards: CardParams = field(default_factory=CardParams)
+    measure: bool = True
+
+
+@dataclass(frozen=True)
+class Delivery:
+    """What was written: a folder and the files in it, relative to it."""
+
+    folder: Path
+    files: tuple[Path, ...]
+
+
+def run_lod(options: LodOptions, *, report: Report) -> Delivery:
+    """Makes and delivers. Raises the errors of both; then nothing was written."""
+    with report.stage("read"):
+        document = opened(options.source)
+    with report.stage("levels"):
+        chain = level_chain(document, budgets=options.budgets, params=options.levels, report=report)
+        for number, level in enumerate(chain.levels):
+            report.number(f"triangles_{number}", level.triangles)
+            report.number(f"strips_{number}", len(level.names))
+    found = _measured(document, chain, options, report) if options.measure else ()
+    with report.stage("motion"):
+        cards = card_levels(document, chain.levels, atlases=chain.atlases, coverage=chain.height_share)
+        report.number("morph_targets", 0 if cards.motion is None else len(cards.motion.shapes))
+    with OutputFolder(options.folder) as output:
+        with report.stage("files"):
+            _write(document, chain, cards, found, options, output.path)
+        write_report(report, output.path / "report.json", facts={"levels": asdict(options.levels)})
+        files = tuple(sorted(file.relative_to(output.path) for file in output.path.rglob("*") if file.is_file()))
+    return Delivery(options.folder, files)
+
+
+def _measured(document: Document, chain: LevelChain, options: LodOptions, report: Report) -> tuple[Likeness, ...]:
+    """Every level but the first against the first, where it takes over."""
+    with report.stage("likeness"):
+        found = tuple(_likeness(document, chain, number, options) for number in range(1, len(chain.levels)))
+        for number, each in enumerate(found, start=1):
+            report.number(f"silhouette_iou_{number}", each.silhouette_iou)
+            report.number(f"color_difference_{number}", each.color_difference)
+        return found
+
+
+def _likeness(document: Document, chain: LevelChain, number: int, options: LodOptions) -> Likeness:
+    px_per_m = options.levels.px_at_1_m / chain.takeover_m[number - 1]
+    clouds = [
+        level_points(
+            document,
+            chain.levels[index],
+            atlases=chain.atlases[index],
+            spacing_m=spacing_for(px_per_m),
+            threshold=options.cards.threshold,
+        )
+        for index in (0, number)
+    ]
+    reference, mine = views_of(clouds, px_per_m=px_per_m)
+    return likeness(mine, reference)
+
+
+def _write(
+    document: Document,
+    chain: LevelChain,
+    cards: CardLevels,
+    found: Sequence[Likeness],
+    options: LodOptions,
+    folder: Path,
+) -> None:
+    scene, params = scene_beside_strips(document), GlbParams(cards=options.cards)
+    (folder / f"{NAME}.glb").write_bytes(encode_glb(scene, params=params, strips=cards))
+    for number, level in enumerate(cards.levels):
+        data = encode_levels([level], name=NAME, motion=cards.motion, step=cards.step, params=options.cards)
+        (folder / f"{NAME}_lod{number}.glb").write_bytes(data)
+    (folder / "lod.json").write_text(json.dumps(_description(chain, cards, found), indent=2) + "\n")
+    Image.fromarray(_preview(document, chain, options)).save(folder / "preview.png", compress_level=4)
+
+
+def _description(chain: LevelChain, cards: CardLevels, found: Sequence[Likeness]) -> dict[str, Any]:
+    """What a program needs to choose between the files."""
+    takeover = (0.0, *chain.takeover_m)
+    likenesses = [None, *(asdict(each) for each in found)] if found else [None] * len(takeover)
+    levels = [
+        {
+            "file": f"{NAME}_lod{number}.glb",
+            "takeover_m": takeover[number],
+            "triangles": sum(len(card.triangles) for card in cards.levels[number].cards),
+            "strips": len(level.names),
+            "texture_px": {name: list(atlas.color.shape[1::-1]) for name, atlas in chain.atlases[number].items()},
+            "likeness": likenesses[number],
+        }
+        for number, level in enumerate(chain.levels)
+    ]
+    return {"hysteresis": HYSTERESIS, "levels": levels}
+
+
+def _preview(document: Document, chain: LevelChain, options: LodOptions) -> Array:
+    """Every level near by from two sides, and small where it takes over."""
+    clouds = [
+        level_points(
+            document,
+            level,
+            atlases=atlases,
+            spacing_m=spacing_for(PREVIEW_PX_PER_M),
+            threshold=options.cards.threshold,
+        )
+        for level, atlases in zip(chain.levels, chain.atlases, strict=True)
+    ]
+    views = views_of(clouds, px_per_m=PREVIEW_PX_PER_M, views=PREVIEW_VIEWS)
+    captions = [f"level {number}: {level.triangles} triangles" for number, level in enumerate(chain.levels)]
+    rows = [
+        contact_sheet([_shown(each[side]) for each in views], captions=captions, height=PREVIEW_HEIGHT)
+        for side in range(PREVIEW_VIEWS)
+    ]
+    return np.concatenate(rows)
+
+
+def _shown(view: CardView) -> Array:
+    return linear_to_srgb8(view.color + (1 - view.filled[..., None]) * BACKDROP)
