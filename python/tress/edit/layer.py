@@ -58,7 +58,7 @@ def layer(
     under_points = under.points(resting_points(below))
     held = _root_rows(strips.shapes, strips.offsets)
 
-    def demand(points: Array, _: Array) -> Array:
+    def demand(points: Array, _: Array) -> tuple[Array, Array]:
         _, outwards = distances(mesh, points)
         hits = ray_hits(
             under_points,
@@ -68,7 +68,7 @@ def layer(
             limit=within_m + gap_m,
         )
         short = np.where(hits.triangle >= 0, within_m + gap_m - hits.t, 0.0)  # of the gap above the inner layer
-        return np.where(short > TOLERANCE_M, OVERSHOOT * short, 0.0)[:, None] * outwards
+        return np.where(short > TOLERANCE_M, OVERSHOOT * short, 0.0)[:, None] * outwards, np.zeros(len(points))
 
     before, grid = resting_points(strips), strip_grid(strips.records, density=DENSITY)
     found = pushed(grid, before, demand, max_iterations=max_iterations, held=held)

@@ -15,6 +15,7 @@ from scipy.sparse import csr_array
 from tress.model.strip_grid import StripGrid
 
 Array = np.ndarray[Any, Any]
+Demand = Callable[[Array, Array], tuple[Array, Array]]
 
 # Even steps lead from wall to wall in the folds of ears; later ones grow.
 EVEN_ROUNDS, GROWTH = 10, 0.2
@@ -22,46 +23,53 @@ EVEN_ROUNDS, GROWTH = 10, 0.2
 
 @dataclass(frozen=True, eq=False)
 class Pushed:
-    """Control points (N, 3) afterwards, how many rounds it took, and whether every point of the surface is content."""
+    """Control points (N, 3) afterwards, how many rounds it took, whether every point of the surface is content, and how
+    far (Q,) each of them may still move and stay so, as far as that is known."""
 
     control_points: Array
     iterations: int
     converged: bool
+    slack: Array
 
 
 def pushed(
     grid: StripGrid,
     control_points: Array,
-    demand: Callable[[Array, Array], Array],
+    demand: Demand,
     *,
     max_iterations: int,
     held: Array | None = None,
+    slack: Array | None = None,
 ) -> Pushed:
     """Moves control points (N, 3) until `demand` is zero.
 
-    `demand(points, rows)` says how far the points (M, 3), which are the rows `rows` of the grid, must move, (M, 3).
-    Strips that are content are not asked again. Control points that are `held` (N,) bool stay, and points of the
-    surface that hang on them for half or more are not asked.
+    `demand(points, rows)` says of the points (M, 3), which are the rows `rows` of the grid, how far they must move,
+    (M, 3), and how far each of those that need not may move, (M,), before it must be asked again; `slack` (Q,) says the
+    same of all points to begin with. Control points that are `held` (N,) bool stay, and points of the surface that hang
+    on them for half or more are not asked.
     """
-    points = np.array(control_points)
-    weights = grid.weights
+    points, weights = np.array(control_points), grid.weights
     if held is not None:
         weights = csr_array(weights * ~held)
         weights.eliminate_zeros()
     able = weights.sum(axis=1) > 0.5
-    rows = np.flatnonzero(able)
+    slack = np.full(len(able), -1.0) if slack is None else np.array(slack)
+    here, rows = grid.points(points), np.flatnonzero(able)
     for iteration in range(max_iterations + 1):
-        wanted = demand(grid.weights[rows] @ points, rows)
+        asked = rows[slack[rows] <= 0]
+        wanted, slack[asked] = demand(here[asked], asked)
         asking = wanted.any(axis=1)
         if not asking.any():
-            return Pushed(points, iteration, True)
+            return Pushed(points, iteration, True, slack)
+        rows = np.flatnonzero(np.isin(grid.strip, np.unique(grid.strip[asked[asking]])) & able)
         if iteration < max_iterations:
             points += (1 + GROWTH * max(iteration - EVEN_ROUNDS, 0)) * _largest_share(
-                weights[rows[asking]], wanted[asking], count=len(points)
+                weights[asked[asking]], wanted[asking], count=len(points)
             )
-        restless = np.unique(grid.strip[rows[asking]])
-        rows = np.flatnonzero(np.isin(grid.strip, restless) & able)
-    return Pushed(points, max_iterations, False)
+            moved = grid.weights[rows] @ points
+            slack[rows] -= np.linalg.norm(moved - here[rows], axis=1)
+            here[rows] = moved
+    return Pushed(points, max_iterations, False, slack)
 
 
 def _largest_share(weights: csr_array, wanted: Array, *, count: int) -> Array:
