@@ -5,6 +5,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
+
+# A check before a change lands draws the same examples every time; `make test-full` draws new ones.
+settings.register_profile("same every time", derandomize=True)
+settings.load_profile("same every time")
 
 ROOT = Path(__file__).parents[1]
 OPEN_DATA = Path(os.environ.get("TRESS_DATA", ROOT.parent / "shared" / "data"))
