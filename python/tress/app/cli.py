@@ -10,6 +10,7 @@ from tress import __version__
 from tress.app.convert_command import convert
 from tress.app.exit_codes import INTERRUPTED
 from tress.app.info_command import info
+from tress.app.keyframes_command import keyframes
 from tress.app.lod_command import lod
 from tress.app.params_command import params
 from tress.app.portrait_command import portrait
@@ -34,6 +35,7 @@ app.command()(portrait)
 app.command()(strips)
 app.command()(texture)
 app.command()(lod)
+app.command()(keyframes)
 app.command()(params)
 app.command()(info)
 app.command()(convert)
