@@ -93,14 +93,17 @@ def _paths(
     step = lengths / count
     turn = (1 - np.exp(-step / bend_m))[:, None]
     here, along, normal = roots, axes[:, :, 0], axes[:, :, 2]
-    start = distances(mesh, roots)[0]
+    start, outwards = distances(mesh, roots)
+    resting = np.ones(len(roots), bool)
     points, frames = [here], [axes]
     for index in range(1, count + 1):
         wanted = _unit(_directions(flow, here))
-        along = _unit(along * (1 - turn) + wanted * turn)
+        into = np.minimum(np.einsum("ni,ni->n", wanted, outwards), 0) * resting
+        along = _unit(along * (1 - turn) + (wanted - into[:, None] * outwards) * turn)
         distance, outwards = distances(mesh, here + step[:, None] * along)
         lift = start + (lift_m - start) * np.clip(index * step / rise_m, 0, 1)
         missing = np.maximum(lift - distance, 0)
+        resting = missing > 0
         along = _unit(step[:, None] * along + missing[:, None] * outwards)
         here = here + step[:, None] * along
         near = np.clip(1 - distance / NEAR_M, 0.02, 1)[:, None] * turn

@@ -35,7 +35,7 @@ def push_out(
 ) -> Diff:
     """Moves control points of strips outwards until every sample of them is `clearance_m` or more outside a surface.
 
-    Measured at rest, at twice and then at four times the density at which strips are shown; the clearance is for what
+    Measured at rest, at twice and then at five times the density at which strips are shown; the clearance is for what
     lies between. The report gets `strips_inside`, `deepest_m` and `strips_moved`, and a warning where the rounds did
     not suffice. `clearances` measures without moving, at any time. A strip that runs through the middle of a head comes
     out crumpled, or not at all: lift it first. Raises `InputError` where the surface is no `Head` or `Mesh`, a name is

@@ -14,7 +14,7 @@ from tress.model.mesh import Mesh
 
 Array = np.ndarray[Any, Any]
 
-DENSITY, FINE_DENSITY = 2, 4  # samples a degree and span, where strips are shown with one
+DENSITY, FINE_DENSITY = 2, 5  # samples a degree and span, where strips are shown with one
 ON_SURFACE_M = 1e-7
 MIN_COSINE = 0.05
 FEW = 3000  # for which asking twice costs more than winding numbers

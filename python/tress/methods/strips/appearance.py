@@ -91,7 +91,7 @@ def _hair(mesh: Mesh, color: Color) -> Array:
     diffuse = 0.35 + 0.75 * np.clip(0.5 + 0.5 * np.abs(normal @ LIGHT), 0, 1) * np.sqrt(1 - (along @ LIGHT) ** 2)
     half = LIGHT + [0, 0.2, 0]
     glint = np.maximum(1 - (along @ (half / np.linalg.norm(half))) ** 2, 0) ** 24
-    return np.asarray(color) * (tone * depth * diffuse)[:, None] * 1.4 + 0.05 * (glint * depth * tone)[:, None]
+    return np.asarray(color) * (tone * depth * diffuse)[:, None] * 1.4 * (1 + 0.6 * (glint * depth)[:, None])
 
 
 def _normals(mesh: Mesh) -> Array:

@@ -30,14 +30,15 @@ def parted(x_m: float = 0.0, *, back: float = 0.0, below_m: float = 0.02) -> Flo
 
 
 def whorl(centre: Any, *, swirl: float = 0.6, reach_m: float = 0.1) -> Flow:
-    """Away from a point of the scalp, turned about it by `swirl` (counter-clockwise from above), fading."""
+    """Away from a point of the scalp, turned about it by `swirl` (counter-clockwise from outside), fading."""
     middle = np.asarray(centre, np.float64)
+    axis = middle / np.linalg.norm(middle)
 
     def flow(points: Array) -> Array:
-        away = points - middle
+        way = points - middle
+        away = way - (way @ axis)[:, None] * axis
         distance = np.linalg.norm(away, axis=1, keepdims=True).clip(1e-9)
-        turned = np.stack([away[:, 2], 0 * away[:, 0], -away[:, 0]], axis=1)
-        return (away + swirl * turned) / distance * np.exp(-((distance / reach_m) ** 2))
+        return (away + swirl * np.cross(axis, away)) / distance * np.exp(-((distance / reach_m) ** 2))
 
     return flow
 

@@ -20,6 +20,7 @@ from tress.model.recipe import Recipe, flat_parameters
 from tress.model.strip import Strip
 
 ATLAS = "strands"
+CLEARANCE_M = 0.002
 
 
 def hairdo(
@@ -45,7 +46,7 @@ def hairdo(
         document = chosen.grow(head or bald_document(), settings)
         report.number("strips", len(document.of_type(Strip)))
     with report.stage("push out"):
-        document = edited(document, push_out, names=[HAIR], surface=HEAD, report=report)
+        document = edited(document, push_out, names=[HAIR], surface=HEAD, clearance_m=CLEARANCE_M, report=report)
         least = np.array(list(clearances(document, names=[HAIR], surface=HEAD).values()))
         report.number("left_inside", int((least < 0).sum()))
         report.number("least_clearance_mm", float(1000 * least.min()))

@@ -7,7 +7,7 @@ import numpy as np
 from tress.edit.variation import Variation
 from tress.methods.strips.bald_document import HEAD
 from tress.methods.strips.ending_at import bands_ending_at
-from tress.methods.strips.even_roots import even_roots
+from tress.methods.strips.even_roots import EvenRoots, even_roots
 from tress.methods.strips.flows import added, off_the_face, parted, steady
 from tress.methods.strips.layers import with_layer
 from tress.methods.strips.params import StripsParams
@@ -22,10 +22,11 @@ FALL = added(steady((0, -1, 0)), parted(0.0, back=0.3), off_the_face(z_m=0.05))
 FRINGE_FALL = steady((0, -1, 0.35))
 LINE_M = -0.105
 """Height of the cut."""
-LAYERS = (("under", 0.36, 0.040, 0.004), ("middle", 0.32, 0.034, 0.007), ("over", 0.18, 0.024, 0.010))
+LAYERS = (("under", 0.36, 0.040, 0.004), ("middle", 0.32, 0.034, 0.007), ("over", 0.14, 0.024, 0.009))
 """Group, share of the strips, width and lift in metres."""
-FRINGE = 0.14
-"""Share of the strips over the forehead."""
+FRINGE, PARTING = 0.14, 0.06
+"""Shares of the strips over the forehead, and on the line along which the hair falls apart behind it."""
+EVEN = Variation(turn_low=-0.1, turn_high=0.1, tilt_high=0.1, length_low=0.93, length_high=1.02)
 
 
 def bob(document: Document, params: StripsParams) -> Document:
@@ -33,21 +34,28 @@ def bob(document: Document, params: StripsParams) -> Document:
     mesh = surface_mesh(document, HEAD, where="A preset")
     for index, (name, share, width_m, lift_m) in enumerate(LAYERS):
         roots = even_roots(mesh, count=params.count(share), seed=params.seed + index)
-        patterns = [
-            (_lock(length_m * params.length, width_m * params.widening), band)
-            for band, length_m in bands_ending_at(roots, LINE_M)
-        ]
         document = with_layer(
             document,
             into=name,
-            patterns=patterns,
+            patterns=_cut(roots, params, width_m),
             flow=FALL,
-            variation=Variation(turn_low=-0.1, turn_high=0.1, tilt_high=0.1, length_low=0.93, length_high=1.02),
+            variation=EVEN,
             seed=params.seed + 100 * index,
             lift_m=lift_m,
             rise_m=0.04,
         )
-    fringe = lock(length_m=0.088 * params.length, width_m=0.018 * params.widening, tip_width=0.55)
+    on_line = even_roots(mesh, count=params.count(PARTING), seed=params.seed, where=_on_line)
+    document = with_layer(
+        document,
+        into="parting",
+        patterns=_cut(on_line, params, 0.022),
+        flow=FALL,
+        variation=EVEN,
+        seed=params.seed + 900,
+        lift_m=0.009,
+        rise_m=0.04,
+    )
+    fringe = lock(length_m=0.095 * params.length, width_m=0.018 * params.widening, tip_width=0.55)
     return with_layer(
         document,
         into="fringe",
@@ -62,9 +70,23 @@ def bob(document: Document, params: StripsParams) -> Document:
     )
 
 
-def _lock(length_m: float, width_m: float) -> Strip:
-    return turned_in(lock(length_m=length_m, width_m=width_m, tip_width=0.5), depth_m=0.08 * length_m)
+def _cut(roots: EvenRoots, params: StripsParams, width_m: float) -> list[tuple[Strip, EvenRoots]]:
+    """Strips of such lengths that they all end at the line, their tips turned in."""
+    return [
+        (
+            turned_in(
+                lock(length_m=length_m * params.length, width_m=width_m * params.widening, tip_width=0.5),
+                depth_m=0.08 * length_m,
+            ),
+            band,
+        )
+        for band, length_m in bands_ending_at(roots, LINE_M)
+    ]
+
+
+def _on_line(points: Array) -> Array:
+    return (np.abs(points[:, 0]) < 0.005) & (points[:, 1] > 0.06) & (points[:, 2] < 0.03)
 
 
 def _above_the_forehead(points: Array) -> Array:
-    return (points[:, 2] > 0.035) & (np.abs(points[:, 0]) < 0.048)
+    return (points[:, 2] > 0.022) & (np.abs(points[:, 0]) < 0.048)

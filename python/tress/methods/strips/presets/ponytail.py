@@ -23,7 +23,7 @@ SWEPT = added(towards(TIE), steady((0, 0, -0.15)))
 RING_M = 0.02
 """Strips that are so much farther from the tie are as much longer."""
 TAIL = steady((0, -1, -0.02))
-LAYERS = (("under", 0.38, 0.034, 0.002), ("over", 0.34, 0.020, 0.004))
+LAYERS = (("under", 0.42, 0.024, 0.003), ("over", 0.30, 0.016, 0.005))
 """Group, share of the strips, width and lift in metres."""
 IN_TAIL = 0.28
 """Share of the strips in the tail."""
@@ -33,7 +33,7 @@ def ponytail(document: Document, params: StripsParams) -> Document:
     """Swept back to a tie, with a tail."""
     mesh = surface_mesh(document, HEAD, where="A preset")
     for index, (name, share, width_m, lift_m) in enumerate(LAYERS):
-        roots = even_roots(mesh, count=params.count(share), seed=params.seed + index, least_scalp=0.3)
+        roots = even_roots(mesh, count=params.count(share), seed=params.seed + index, least_scalp=0.45)
         document = with_layer(
             document,
             into=name,

@@ -13,10 +13,10 @@ from tress.model.attachment import surface_mesh
 from tress.model.document import Document
 
 CROWN = (0.012, 0.085, -0.055)
-FLOW = added(steady((0, -0.55, 0.15)), whorl(CROWN, swirl=0.5, reach_m=0.12))
+FLOW = added(steady((0, -0.6, 0.12)), whorl(CROWN, swirl=0.3, reach_m=0.09))
 LAYERS = (("under", 0.55, 0.032, 0.028, 0.002), ("over", 0.70, 0.042, 0.018, 0.005))
 """Group, share of the strips, length, width and lift in metres."""
-AT_CROWN = 0.05
+AT_CROWN = 0.07
 """Share of the strips that close the middle of the whorl."""
 IRREGULAR = Variation(turn_low=-0.3, turn_high=0.3, tilt_high=0.35, length_low=0.7, length_high=1.2)
 
@@ -41,7 +41,7 @@ def short_crop(document: Document, params: StripsParams) -> Document:
         mesh,
         count=params.count(AT_CROWN),
         seed=params.seed,
-        where=lambda points: np.linalg.norm(points - CROWN, axis=1) < 0.02,
+        where=lambda points: np.linalg.norm(points - CROWN, axis=1) < 0.022,
     )
     return with_layer(
         document,
