@@ -11,6 +11,7 @@ from hypothesis import settings
 settings.register_profile("same every time", derandomize=True)
 settings.load_profile("same every time")
 
+collect_ignore = ["blender_import.py"]  # run by Blender
 ROOT = Path(__file__).parents[1]
 OPEN_DATA = Path(os.environ.get("TRESS_DATA", ROOT.parent / "shared" / "data"))
 

@@ -5,6 +5,7 @@ pub mod depth;
 pub mod diffuse;
 pub mod distance;
 mod error;
+mod front_sheet;
 mod grid;
 pub mod mesh_depth;
 pub mod neighbours;
@@ -12,6 +13,9 @@ pub mod principal;
 pub mod sample;
 mod sums;
 pub mod trace;
+mod voxel_field;
 
 pub use error::FieldError;
+pub use front_sheet::FrontSheet;
 pub use grid::GridShape;
+pub use voxel_field::VoxelField;

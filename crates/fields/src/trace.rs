@@ -12,37 +12,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::error::check_number;
-use crate::{FieldError, GridShape};
-
-/// A box of voxels in space: voxel (layer, row, column) has its centre at `origin + size (column + ½, -(row + ½), layer + ½)`.
-pub struct VoxelField<'a> {
-    /// Sizes of the box.
-    pub shape: GridShape,
-    /// Corner of the box with the least x, greatest y, least z; metres.
-    pub origin: DVec3,
-    /// Edge of a voxel, metres.
-    pub size: f64,
-    /// Unit direction root to tip a voxel; zero outside the hair.
-    pub direction: &'a [[f32; 3]],
-    /// Distance to the head, metres, negative inside it.
-    pub head_distance: &'a [f32],
-}
-
-/// The visible surface of the hair on the pixels of the photograph.
-pub struct FrontSheet<'a> {
-    /// Rows and columns of the picture.
-    pub rows: usize,
-    /// Columns of the picture.
-    pub columns: usize,
-    /// Pixels a metre, and the pixel of the origin: `u = s x + c.x`, `v = -s y + c.y`.
-    pub scale: f64,
-    /// Pixel of the origin.
-    pub centre: DVec2,
-    /// z of the surface; NaN where there is no hair.
-    pub depth: &'a [f32],
-    /// Direction root to tip in pixel axes (y down); zero where unknown.
-    pub direction: &'a [[f32; 2]],
-}
+use crate::{FieldError, FrontSheet, VoxelField};
 
 /// How to trace.
 #[derive(Clone, Copy, Debug)]
@@ -190,10 +160,10 @@ impl Tracer<'_> {
             if self.full(next, density, cover) {
                 break;
             }
-            let gap = if self.far_from_head(next) { f64::INFINITY } else { self.head_distance(next) };
+            let gap = if self.far_from_head(next) { f64::INFINITY } else { self.field.head_distance(next) };
             if gap < self.options.clearance {
                 let pushed = self.pushed_out(next, gap);
-                if self.head_distance(pushed) < 0.0 {
+                if self.field.head_distance(pushed) < 0.0 {
                     return (points, sense < 0.0);
                 }
                 if sense < 0.0 && gap < 0.5 * self.options.clearance {
@@ -211,19 +181,19 @@ impl Tracer<'_> {
             point = next;
             sight = seen;
         }
-        let rooted = sense < 0.0 && self.head_distance(point) < 2.0 * self.options.clearance;
+        let rooted = sense < 0.0 && self.field.head_distance(point) < 2.0 * self.options.clearance;
         (points, rooted)
     }
 
     /// What the picture knows of a point: its pixel and, where there is hair, the z of the surface there.
     fn sight(&self, point: DVec3) -> Sight {
-        let pixel = self.pixel(point);
-        Sight { pixel, surface: self.surface(pixel) }
+        let pixel = self.sheet.pixel(point);
+        Sight { pixel, surface: self.sheet.surface(pixel) }
     }
 
     /// Where the strand goes at a point, root to tip; `None` outside the hair.
     fn direction(&self, point: DVec3, sight: Sight) -> Option<DVec3> {
-        self.sheet_direction(point, sight).or_else(|| self.voxel_direction(point))
+        self.sheet_direction(point, sight).or_else(|| self.field.direction_at(point))
     }
 
     fn sheet_direction(&self, point: DVec3, sight: Sight) -> Option<DVec3> {
@@ -232,9 +202,9 @@ impl Tracer<'_> {
         if (point.z - surface).abs() > self.options.sheet_depth {
             return None;
         }
-        let flat = self.picture_direction(pixel)?;
-        let ahead = self.surface(pixel + flat);
-        let behind = self.surface(pixel - flat);
+        let flat = self.sheet.direction_at(pixel)?;
+        let ahead = self.sheet.surface(pixel + flat);
+        let behind = self.sheet.surface(pixel - flat);
         let rise = match (ahead, behind) {
             (Some(a), Some(b)) => (a - b) / 2.0,
             (Some(a), None) => a - surface,
@@ -257,128 +227,9 @@ impl Tracer<'_> {
         }
     }
 
-    fn pixel(&self, point: DVec3) -> DVec2 {
-        DVec2::new(point.x * self.sheet.scale, -point.y * self.sheet.scale) + self.sheet.centre
-    }
-
-    fn pixel_index(&self, pixel: DVec2) -> Option<usize> {
-        let inside =
-            pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < self.sheet.columns as f64 && pixel.y < self.sheet.rows as f64;
-        inside.then(|| pixel.y as usize * self.sheet.columns + pixel.x as usize)
-    }
-
-    /// Bilinear over the pixels that have a depth; `None` where the pixel itself has none.
-    fn surface(&self, pixel: DVec2) -> Option<f64> {
-        let centre = f64::from(self.sheet.depth[self.pixel_index(pixel)?]);
-        if centre.is_nan() {
-            return None;
-        }
-        let (mut sum, mut total) = (0.0, 0.0);
-        self.corners(pixel, |index, share| {
-            let z = f64::from(self.sheet.depth[index]);
-            if !z.is_nan() {
-                sum += share * z;
-                total += share;
-            }
-        });
-        Some(if total > 1e-9 { sum / total } else { centre })
-    }
-
-    fn picture_direction(&self, pixel: DVec2) -> Option<DVec2> {
-        let read = |index: usize| {
-            let [x, y] = self.sheet.direction[index];
-            DVec2::new(f64::from(x), f64::from(y))
-        };
-        let own = read(self.pixel_index(pixel)?);
-        let mut sum = DVec2::ZERO;
-        self.corners(pixel, |index, share| {
-            let d = read(index);
-            sum += d * share * if d.dot(own) < 0.0 { -1.0 } else { 1.0 };
-        });
-        sum.try_normalize()
-    }
-
-    fn corners(&self, pixel: DVec2, mut visit: impl FnMut(usize, f64)) {
-        let q = pixel - 0.5;
-        let low = q.floor();
-        let f = q - low;
-        for (dy, dx) in [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)] {
-            let corner = low + DVec2::new(dx, dy);
-            let share = (if dx > 0.0 { f.x } else { 1.0 - f.x }) * (if dy > 0.0 { f.y } else { 1.0 - f.y });
-            if let Some(index) = self.pixel_index(corner + 0.5) {
-                visit(index, share);
-            }
-        }
-    }
-
-    fn place(&self, point: DVec3) -> DVec3 {
-        let q = (point - self.field.origin) / self.field.size;
-        DVec3::new(q.x, -q.y, q.z)
-    }
-
-    fn voxel(&self, point: DVec3) -> Option<usize> {
-        let q = self.place(point);
-        let shape = self.field.shape;
-        let inside = q.min_element() >= 0.0
-            && q.x < shape.columns as f64
-            && q.y < shape.rows as f64
-            && q.z < shape.layers as f64;
-        inside.then(|| shape.index(q.z as usize, q.y as usize, q.x as usize))
-    }
-
-    fn around(&self, point: DVec3, mut visit: impl FnMut(usize, f64)) {
-        let q = self.place(point) - 0.5;
-        let low = q.floor();
-        let f = q - low;
-        let shape = self.field.shape;
-        let sizes = [shape.columns, shape.rows, shape.layers];
-        let mut at = [[None; 2]; 3];
-        for (k, size) in sizes.into_iter().enumerate() {
-            for (step, place) in [low[k], low[k] + 1.0].into_iter().enumerate() {
-                at[k][step] = (place >= 0.0 && place < size as f64).then_some(place as usize);
-            }
-        }
-        for (z, depth_share) in at[2].into_iter().zip([1.0 - f.z, f.z]) {
-            for (y, row_share) in at[1].into_iter().zip([1.0 - f.y, f.y]) {
-                let (Some(z), Some(y)) = (z, y) else { continue };
-                for (x, share) in at[0].into_iter().zip([1.0 - f.x, f.x]) {
-                    if let Some(x) = x {
-                        visit(shape.index(z, y, x), share * row_share * depth_share);
-                    }
-                }
-            }
-        }
-    }
-
-    fn voxel_direction(&self, point: DVec3) -> Option<DVec3> {
-        let read = |index: usize| DVec3::from_array(self.field.direction[index].map(f64::from));
-        let own = read(self.voxel(point)?);
-        if own == DVec3::ZERO {
-            return None;
-        }
-        let mut sum = DVec3::ZERO;
-        self.around(point, |index, share| {
-            let d = read(index);
-            sum += d * share * if d.dot(own) < 0.0 { -1.0 } else { 1.0 };
-        });
-        sum.try_normalize()
-    }
-
-    fn head_distance(&self, point: DVec3) -> f64 {
-        let (mut sum, mut total) = (0.0, 0.0);
-        self.around(point, |index, share| {
-            // Nothing of an infinite distance is nothing.
-            if share > 0.0 {
-                sum += share * f64::from(self.field.head_distance[index]);
-                total += share;
-            }
-        });
-        if total > 0.5 { sum / total } else { f64::INFINITY }
-    }
-
     /// Whether the voxel says by itself that the skin is beyond its neighbours: a distance changes by no more than one's way.
     fn far_from_head(&self, point: DVec3) -> bool {
-        self.voxel(point).is_some_and(|voxel| {
+        self.field.voxel(point).is_some_and(|voxel| {
             f64::from(self.field.head_distance[voxel]) > self.options.clearance + 2.0 * self.field.size
         })
     }
@@ -386,9 +237,9 @@ impl Tracer<'_> {
     fn pushed_out(&self, point: DVec3, gap: f64) -> DVec3 {
         let h = 0.5 * self.field.size;
         let slope = DVec3::new(
-            self.head_distance(point + DVec3::X * h) - self.head_distance(point - DVec3::X * h),
-            self.head_distance(point + DVec3::Y * h) - self.head_distance(point - DVec3::Y * h),
-            self.head_distance(point + DVec3::Z * h) - self.head_distance(point - DVec3::Z * h),
+            self.field.head_distance(point + DVec3::X * h) - self.field.head_distance(point - DVec3::X * h),
+            self.field.head_distance(point + DVec3::Y * h) - self.field.head_distance(point - DVec3::Y * h),
+            self.field.head_distance(point + DVec3::Z * h) - self.field.head_distance(point - DVec3::Z * h),
         );
         if slope.is_finite() { point + slope.normalize_or_zero() * (self.options.clearance - gap) } else { point }
     }
@@ -396,34 +247,34 @@ impl Tracer<'_> {
     /// The point itself, or where it is nearer than `clearance` to the skin, the one that far before it; `None` where a
     /// push along the slope does not lead out of the head.
     fn out_of_head(&self, point: DVec3) -> Option<DVec3> {
-        let gap = self.head_distance(point);
+        let gap = self.field.head_distance(point);
         if gap >= self.options.clearance {
             return Some(point);
         }
-        Some(self.pushed_out(point, gap)).filter(|&pushed| self.head_distance(pushed) >= 0.0)
+        Some(self.pushed_out(point, gap)).filter(|&pushed| self.field.head_distance(pushed) >= 0.0)
     }
 
     fn on_sheet(&self, point: DVec3) -> Option<usize> {
-        let pixel = self.pixel(point);
-        let surface = self.surface(pixel)?;
-        ((point.z - surface).abs() <= self.options.sheet_depth).then(|| self.pixel_index(pixel)).flatten()
+        let pixel = self.sheet.pixel(point);
+        let surface = self.sheet.surface(pixel)?;
+        ((point.z - surface).abs() <= self.options.sheet_depth).then(|| self.sheet.pixel_index(pixel)).flatten()
     }
 
     fn taken(&self, point: DVec3, cover: &[u16]) -> bool {
-        !cover.is_empty() && self.pixel_index(self.pixel(point)).is_some_and(|pixel| cover[pixel] > 0)
+        !cover.is_empty() && self.sheet.pixel_index(self.sheet.pixel(point)).is_some_and(|pixel| cover[pixel] > 0)
     }
 
     fn full(&self, point: DVec3, density: &[u16], cover: &[u16]) -> bool {
         if !cover.is_empty() && self.on_sheet(point).is_some_and(|pixel| cover[pixel] >= self.options.pixel_cap) {
             return true;
         }
-        self.voxel(point).is_none_or(|voxel| density[voxel] >= self.options.voxel_cap)
+        self.field.voxel(point).is_none_or(|voxel| density[voxel] >= self.options.voxel_cap)
     }
 
     fn mark(&self, points: &[DVec3], density: &mut [u16], cover: &mut [u16]) {
         let (mut last, mut last_pixel) = (usize::MAX, usize::MAX);
         for &point in points {
-            if let Some(voxel) = self.voxel(point).filter(|v| *v != last) {
+            if let Some(voxel) = self.field.voxel(point).filter(|v| *v != last) {
                 density[voxel] = density[voxel].saturating_add(1);
                 last = voxel;
             }
@@ -441,6 +292,7 @@ impl Tracer<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::GridShape;
 
     const SHAPE: GridShape = GridShape { layers: 20, rows: 20, columns: 20 };
     const OPTIONS: TraceOptions = TraceOptions {

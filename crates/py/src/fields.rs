@@ -14,8 +14,8 @@ use tress_fields::mesh_depth::mesh_depth;
 use tress_fields::neighbours::{Lists, NeighbourOptions, neighbours};
 use tress_fields::principal::principal_axes;
 use tress_fields::sample::sample;
-use tress_fields::trace::{FrontSheet, Seed, TraceOptions, VoxelField, trace};
-use tress_fields::{FieldError, GridShape};
+use tress_fields::trace::{Seed, TraceOptions, trace};
+use tress_fields::{FieldError, FrontSheet, GridShape, VoxelField};
 
 type Flat<'py, T> = Bound<'py, PyArray1<T>>;
 

@@ -29,7 +29,7 @@ def srgb_to_linear(image: NDArray[np.uint8] | NDArray[np.floating]) -> NDArray[n
 def linear_to_srgb(image: NDArray[np.floating]) -> NDArray[np.float32]:
     """sRGB values in [0, 1] (float32) of linear light; input outside [0, 1] is clipped.
 
-    >>> linear_to_srgb(np.array([0.0, 1.0, 7.0])).tolist()
+    >>> linear_to_srgb(np.array([0.0, 1.0, 7.0])).round(6).tolist()
     [0.0, 1.0, 1.0]
     """
     linear = np.clip(np.asarray(image, np.float32), 0.0, 1.0)

@@ -44,7 +44,7 @@ def nearest(inside: Any) -> Nearest:
     """Of every voxel, the nearest where `inside` (L, R, C) is true; infinitely far, and itself, where none is marked.
 
     >>> nearest([[[True, False, False, False, True]]]).cell.tolist()
-    [[[0, 0, 0, 4, 4]]]
+    [[[0, 0, 4, 4, 4]]]
     """
     marks = checked(inside, name="inside", dtype=np.bool_, shape=(None, None, None))
     far, cell = _core.fields_nearest(marks)
@@ -129,7 +129,7 @@ def diffuse_axes(
     Diffused as structure tensors (Chai et al. 2012, section 3.3.2), which know no forth and back, with their sense.
 
     >>> ends = np.array([[0, -1, 0], [0, 0, 0], [0, -1, 0]])
-    >>> diffuse_axes(ends, mask=np.ones((1, 1, 3), bool), weights=[1, 0, 1]).axes[1].round(3).tolist()
+    >>> (diffuse_axes(ends, mask=np.ones((1, 1, 3), bool), weights=[1, 0, 1]).axes[1].round(3) + 0.0).tolist()
     [0.0, -1.0, 0.0]
     """
     marks = checked(mask, name="mask", dtype=np.bool_, shape=(None, None, None))

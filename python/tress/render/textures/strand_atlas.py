@@ -39,7 +39,7 @@ def strand_atlas(params: TextureParams, *, report: Report) -> Atlas:
 
     >>> atlas = strand_atlas(TextureParams(resolution=64, variations=2, padding=2), report=Report())
     >>> atlas.color.shape, len(atlas.regions), sorted(atlas.maps)[:3]
-    ((64, 64, 4), 2, ['ambient_occlusion', 'depth', 'flow'])
+    ((128, 64, 4), 2, ['ambient_occlusion', 'depth', 'flow'])
     """
     layout = card_layout(params.variations, width=params.resolution, aspect=params.aspect, padding=params.padding)
     pictures = {
