@@ -1,6 +1,7 @@
 """`tress lod` and `tress keyframes`: what they write, and what they say of wrong input."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from gltf_validator import validator_report
 from tress.io.formats.registry import format_of
 from tress.model.evaluate import evaluate
 from tress.model.keyframes import Keyframes
+from tress.render.video import read_video
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +56,17 @@ def test_wrong_levels_are_refused_in_one_line(tress, hair, tmp_path, arguments, 
 @pytest.mark.parametrize("motion", ["sway", "wind"])
 @pytest.mark.parametrize("interpolation", ["cubic", "linear"])
 def test_motions_keep_roots_move_tips_and_repeat(tress, hair, tmp_path, motion, interpolation):
-    options = ("--motion", motion, "--amplitude", 0.03, "--period", 1.5, "--interpolation", interpolation)
+    options = (
+        "--no-turntable",
+        "--motion",
+        motion,
+        "--amplitude",
+        0.03,
+        "--period",
+        1.5,
+        "--interpolation",
+        interpolation,
+    )
     said = tress("keyframes", hair, "-o", tmp_path / "out", *options)
     assert said.code == 0, said.err
     document = format_of(tmp_path / "out" / "hair.usdc").read(tmp_path / "out" / "hair.usdc")
@@ -73,9 +85,11 @@ def test_motions_keep_roots_move_tips_and_repeat(tress, hair, tmp_path, motion, 
 def test_keyframes_come_from_json_and_old_ones_go(tress, hair, tmp_path):
     moments = {"target": "crown", "times": [0, 1], "values": [[0, 0, 0], [0, 0.01, 0]], "interpolation": "step"}
     (tmp_path / "up.json").write_text(json.dumps({**moments, "frame": "head"}))
-    assert tress("keyframes", hair, "-o", tmp_path / "first").code == 0
+    assert tress("keyframes", hair, "-o", tmp_path / "first", "--no-turntable").code == 0
     moving = tmp_path / "first" / "hair.usdc"
-    said = tress("keyframes", moving, "-o", tmp_path / "out", "--from", tmp_path / "up.json", "--clear")
+    said = tress(
+        "keyframes", moving, "-o", tmp_path / "out", "--from", tmp_path / "up.json", "--clear", "--no-turntable"
+    )
     assert said.code == 0, said.err
     document = format_of(moving).read(tmp_path / "out" / "hair.usdc")
     (found,) = document.of_type(Keyframes).values()
@@ -104,3 +118,15 @@ def test_wrong_keyframes_are_refused_in_one_line(tress, hair, tmp_path, content,
 def test_an_unknown_motion_and_target_are_refused(tress, hair, tmp_path):
     assert "one of sway, wind" in tress("keyframes", hair, "-o", tmp_path / "out", "--motion", "earthquake").err
     assert "'nobody'" in tress("keyframes", hair, "-o", tmp_path / "out", "--target", "nobody").err
+
+
+def test_motions_add_up_and_play_on_film(tress, hair, tmp_path):
+    options = ("--target", "crown", "--period", 0.3, "--amplitude", 0.05)
+    assert tress("keyframes", hair, "-o", tmp_path / "one", "--no-turntable", *options).code == 0
+    said = tress("keyframes", tmp_path / "one" / "hair.usdc", "-o", tmp_path / "two", *options)
+    assert said.code == 0, said.err
+    found = format_of(Path("hair.usdc")).read(tmp_path / "two" / "hair.usdc").of_type(Keyframes)
+    assert len(found) == 2 and {item.target for item in found.values()} == {"crown"}
+    frames, rate = read_video(tmp_path / "two" / "turntable.webm")
+    assert len(frames) == pytest.approx(4.2 * rate, abs=1) and frames.std() > 10
+    assert {"hair.usdc", "hair.glb", "preview.png", "report.json"} <= {p.name for p in (tmp_path / "two").iterdir()}

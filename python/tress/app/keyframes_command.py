@@ -53,6 +53,7 @@ def keyframes(
     ] = _DEFAULT.interpolation,
     seed: Annotated[int, param_option(MotionParams, "seed", panel=_MOTION)] = _DEFAULT.seed,
     formats: Annotated[str, typer.Option(help="Files to write, by ending, with commas between.")] = "usdc,glb",
+    turntable: Annotated[bool, typer.Option(help="Also write the film turntable.webm, which plays the motion.")] = True,
     verbose: Annotated[
         int,
         typer.Option(
@@ -68,7 +69,8 @@ def keyframes(
 ) -> None:
     """Give the strips of a file a motion: a sway, wind, or keyframes from JSON.
 
-    The folder then holds hair.usdc (keyframes as records, sampled as time samples), hair.glb (a clip) and report.json.
+    The folder then holds hair.usdc (keyframes as records, and time samples), hair.glb (a clip), preview.png (moments of
+    the motion), turntable.webm and report.json.
 
     [bold]Examples[/]
 
@@ -100,6 +102,7 @@ def keyframes(
         params=params,
         clear=clear,
         formats=tuple(name.strip().lstrip(".").lower() for name in formats.split(",") if name.strip()),
+        turntable=turntable,
     )
     with screen(verbose=verbose, quiet=quiet, json_output=json_output) as shown:
         shown.results(run_keyframes(options, report=shown.report))

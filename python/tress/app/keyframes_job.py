@@ -3,6 +3,8 @@
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
+from PIL import Image
+
 from tress.app.saved_document import opened
 from tress.base.errors import InputError
 from tress.base.report import Report
@@ -13,11 +15,13 @@ from tress.io.formats.registry import format_of
 from tress.io.keyframes_json import read_keyframes_json
 from tress.io.report_file import write_report
 from tress.methods.strips.edited import edited
+from tress.methods.strips.film import FilmParams, film_strip, moving_turntable
 from tress.methods.strips.motions import MotionParams, motion_of
 from tress.model.document import Document
 from tress.model.group import Group
 from tress.model.keyframes import Keyframes
 from tress.model.strip import Strip
+from tress.render.video import write_webm
 
 
 @dataclass(frozen=True)
@@ -32,6 +36,7 @@ class KeyframesOptions:
     params: MotionParams = field(default_factory=MotionParams)
     clear: bool = False
     formats: tuple[str, ...] = ("usdc", "glb")
+    turntable: bool = True
 
 
 @dataclass(frozen=True)
@@ -56,10 +61,20 @@ def run_keyframes(options: KeyframesOptions, *, report: Report) -> Delivery:
         for name, form in formats.items():
             with report.stage(form.name):
                 form.write(document, output.path / name)
+        with report.stage("preview"):
+            _write_pictures(document, options, output.path, report)
         facts = {"motion": str(options.read or options.motion), "parameters": asdict(options.params)}
         write_report(report, output.path / "report.json", facts=facts)
         files = tuple(sorted(file.relative_to(output.path) for file in output.path.rglob("*") if file.is_file()))
     return Delivery(options.folder, files)
+
+
+def _write_pictures(document: Document, options: KeyframesOptions, folder: Path, report: Report) -> None:
+    Image.fromarray(film_strip(document)).save(folder / "preview.png", compress_level=4)
+    if options.turntable:
+        film = FilmParams()
+        frames = moving_turntable(document, params=film, report=report)
+        write_webm(folder / "turntable.webm", frames=frames, frames_per_sec=film.frames_per_sec)
 
 
 def moving(document: Document, options: KeyframesOptions) -> Document:
@@ -68,12 +83,13 @@ def moving(document: Document, options: KeyframesOptions) -> Document:
         document = edited(document, delete, names=old)
     for name, item in _motions(document, options).items():
         fields = {key: value for key, value in vars(item).items() if key != "target"}
-        document = edited(document, set_keyframes, target=item.target, name=name, **fields)
+        free = "" if name in document.records else name
+        document = edited(document, set_keyframes, target=item.target, name=free, **fields)
     return document
 
 
 def _motions(document: Document, options: KeyframesOptions) -> dict[str, Keyframes]:
-    """By the name of the record to be; of a file's keyframes the names are found by the edit."""
+    """The motions to add, by the names that their records get where these are free."""
     if options.read is not None:
         found = read_keyframes_json(options.read)
         return {f"motion_{number}": item for number, item in enumerate(found)}
