@@ -12,7 +12,7 @@ Limits: what looks like hair, lies where hair may lie and touches hair becomes h
 dark hair); hair whose colour is that of the skin or of the backdrop is lost. A stroke or two mends these.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -24,12 +24,14 @@ from tress.base.errors import InputError
 from tress.base.params import Params, param
 from tress.image.appearance import features, learnt_appearance, log_likelihood
 from tress.image.color import require_photograph
+from tress.image.covering import covering
 from tress.image.cut import two_label_cut
 from tress.image.guided_filter import guided_filter
 from tress.image.labels import BACKGROUND, BODY, FACE, HAIR, LAYER_COUNT
 from tress.image.mixture import fitted_mixture, log_density
 from tress.image.reach import reach
 from tress.image.spread import spread_of_strokes
+from tress.image.strand_odds import color_steps, strand_odds
 from tress.image.strokes import NO_STROKE
 from tress.image.superpixels import Superpixels, mean_over, superpixels
 
@@ -40,19 +42,12 @@ _ALIKE = 1.0
 _BARE = (0.42, 0.58)
 """Share of hair's seeds that look like the face: up to the first it is hair, from the second on the head is bald."""
 
-_EVEN_TEXTURE, _PER_TEXTURE = 0.4, 1.4
-_EVEN_GRAIN, _PER_GRAIN = 0.57, 3.5
-"""Fine texture and grain at which a patch is as likely hair as not, and logarithm of odds for each unit more: middle
-and slope between hair (0.8 and 0.7 in the mean) and skin and clothes (0.0 and 0.43) in common photographs."""
-_MOST_ODDS = 2.0
 _ROOTED = 0.52
 """Prior of hair from which on hair may have its roots there: not below the chin."""
 _TO_SKIN = 2.0
 """Logarithm of likelihood by which skin explains a patch better at which its strands say nothing; one less, and all."""
 _STEP_OF_HAIR = 14.0
 """Step in Lab between neighbours that hair takes for nothing; each more costs a toll of 1 below the chin."""
-_RIM = 35.0
-"""Step in Lab to a neighbour at which a patch's texture is half its own and half the outline of something."""
 _NEAR = 0.06
 """Distance from the person, as part of the picture's longer side, at which the backdrop teaches 1/e as much."""
 
@@ -83,11 +78,13 @@ class LayerParams(Params):
 @dataclass(frozen=True)
 class Layers:
     """What belongs to which layer: `label` (H, W) uint8 (0 background, 1 body, 2 face, 3 hair), `probability` (H, W, 4)
-    float32 adding up to 1, `superpixels` (H, W) int32, the patches that were cut."""
+    float32 adding up to 1, `superpixels` (H, W) int32, the patches that were cut, `covering` >= 0, the evidence that
+    some of the hair is a hat or a scarf; from 1 on it is likely."""
 
     label: NDArray[np.uint8]
     probability: NDArray[np.float32]
     superpixels: NDArray[np.int32]
+    covering: float = 0.0
 
     @property
     def hair_mask(self) -> NDArray[np.bool_]:
@@ -119,7 +116,9 @@ def segment_layers(
     patch_prior = _patch_prior(prior, patches)
     patch_stroke = _patch_strokes(strokes, patches)
     label, soft = _cut_layers(patches, patch_prior, patch_stroke, params)
-    return _at_full_size(image, small, patches, label, soft, strokes, params)  # type: ignore[arg-type]
+    layers = _at_full_size(image, small, patches, label, soft, strokes, params)  # type: ignore[arg-type]
+    covered = covering(patches, hair=label == HAIR, rooted=patch_prior[:, HAIR] > _ROOTED, strands=strand_odds(patches))
+    return replace(layers, covering=covered)
 
 
 def _at_work_size(image: NDArray[np.uint8], longer_side: int) -> NDArray[np.uint8]:
@@ -173,7 +172,7 @@ def _cut_layers(
         look = log_likelihood(learnt_appearance(samples, weights=weights, strokes=stroke), samples)
         cost = _costs(look, prior, stroke, params)
         cost = _with_reach(cost, roots, stroke, patches, prior, look, params)
-        label = _cut_in_steps(cost, patches.edges, border, final=number == params.rounds - 1)
+        label = _cut_incolor_steps(cost, patches.edges, border, final=number == params.rounds - 1)
         weights = _weights_of_cut(label, prior, stroke, patches)
         weights[:, BODY] *= np.maximum(1 - _likeness(samples, look[:, HAIR]), 0.02)
     return label, cost
@@ -192,23 +191,6 @@ def _with_spread_strokes(
     prior = prior * np.exp(weight * spread_of_strokes(samples, strokes=stroke, edges=patches.edges))
     prior = np.maximum(prior / prior.sum(axis=1, keepdims=True), _LEAST_PRIOR)
     return prior / prior.sum(axis=1, keepdims=True)
-
-
-def _strand_odds(patches: Superpixels) -> NDArray[np.float64]:
-    """Logarithm of odds (N,) for hair, of any colour: its fine contrast is strong and runs one way."""
-    odds = _PER_TEXTURE * (patches.texture - _EVEN_TEXTURE) + _PER_GRAIN * (patches.grain - _EVEN_GRAIN)
-    odds = np.clip(odds, -_MOST_ODDS, _MOST_ODDS).astype(np.float64)
-    return odds / (1 + (_greatest_step(patches) / _RIM) ** 4)
-
-
-def _greatest_step(patches: Superpixels) -> NDArray[np.float64]:
-    """(N,) largest difference in Lab to a neighbour."""
-    step = np.zeros(patches.count)
-    first, second = patches.edges.T
-    difference = _steps(patches, patches.edges)
-    np.maximum.at(step, first, difference)
-    np.maximum.at(step, second, difference)
-    return step
 
 
 def _sure_places(prior: NDArray[np.float64], stroke: NDArray[np.uint8], patches: Superpixels) -> NDArray[np.float64]:
@@ -275,13 +257,13 @@ def _with_reach(
     """Costs (N, 4) in which hair is dearer the harder it is to get there from the hair's seeds, walking over what is
     likely hair in small steps of colour, and clothes are dearer where it is easy: long hair goes on downwards.
     Strands speak for hair, but not where the colour is the skin's: an ear has edges too."""
-    strand = params.strand_weight * _strand_odds(patches) * (cost[:, HAIR] < _NEVER)
+    strand = params.strand_weight * strand_odds(patches) * (cost[:, HAIR] < _NEVER)
     strand = np.where(strand > 0, strand * np.clip(_TO_SKIN - (look[:, FACE] - look[:, HAIR]), 0, 1), strand)
     behind = cost[:, HAIR] - strand - cost[:, [BACKGROUND, BODY, FACE]].min(axis=1)
     toll = np.maximum(behind, 0)
     start = _largest_patchwork((seeds > 0.3 * seeds.max()) & (behind < 0) & (prior[:, HAIR] > _ROOTED), patches)
     edges = np.concatenate([patches.edges, _over_the_top(patches, (behind < 0) & (prior[:, HAIR] > 0.4))])
-    step = np.maximum(_steps(patches, edges) / _STEP_OF_HAIR - 1, 0)
+    step = np.maximum(color_steps(patches, edges) / _STEP_OF_HAIR - 1, 0)
     step *= prior[edges, HAIR].min(axis=1) < _ROOTED  # from a hat to the hair below it is no step
     way = np.minimum(reach(toll, edges=edges, start=start | (stroke == HAIR), step=step) - toll, _NEVER)
     cost = cost.copy()
@@ -290,11 +272,6 @@ def _with_reach(
     cost[:, BODY] += params.reach_bonus * (way < 1) * (prior[:, HAIR] > 0.1) * (1 - np.minimum(way, 1))
     cost[stroke == HAIR, HAIR] = 0
     return cost
-
-
-def _steps(patches: Superpixels, edges: NDArray[np.int32]) -> NDArray[np.float64]:
-    """(E,) difference in Lab of neighbours."""
-    return np.linalg.norm(patches.lab[edges[:, 0]] - patches.lab[edges[:, 1]], axis=1)
 
 
 def _over_the_top(patches: Superpixels, hairy: NDArray[np.bool_]) -> NDArray[np.int32]:
@@ -349,7 +326,7 @@ def _costs(
     return cost
 
 
-def _cut_in_steps(
+def _cut_incolor_steps(
     cost: NDArray[np.float64], edges: NDArray[np.int32], border: NDArray[np.float64], *, final: bool
 ) -> NDArray[np.uint8]:
     """Hair from the rest; then, for the last round, background from the rest and face from body."""

@@ -28,7 +28,7 @@ def layers_stage(
     """Layers of the photograph `image` (H, W, 3) uint8 sRGB, automatic but for what `strokes` (H, W) settle.
 
     `person` (H, W) float32 in [0, 1] is the person mask. Reports the share of the picture that is hair, and
-    `hair_in_faces`, its area in face heights squared.
+    `hair_in_faces`, its area in face heights squared; warns where a hat or scarf is likely among it.
     """
     frame = face_frame(landmarks)
     prior = location_prior(landmarks, person=person)
@@ -45,6 +45,11 @@ def layers_stage(
     in_faces = area / frame.height_px**2
     report.number("hair_share", area / layers.label.size)
     report.number("hair_in_faces", in_faces)
+    if layers.covering >= 1:
+        report.warn(
+            "what covers the head differs from the hair below it, as a hat or a scarf does; if it is one, mark it as "
+            "body with --strokes, and look at stages/layers."
+        )
     return layers
 
 
@@ -76,4 +81,4 @@ def _within(
     probability[box] = inner.probability
     patches = np.full(prior.shape[:2], int(inner.superpixels.max()) + 1, np.int32)
     patches[box] = inner.superpixels
-    return Layers(probability.argmax(axis=-1).astype(np.uint8), probability, patches)
+    return Layers(probability.argmax(axis=-1).astype(np.uint8), probability, patches, inner.covering)
