@@ -16,11 +16,15 @@ def params(
 
     Example:  tress params depth
     """
-    from tress.app.settings import settings
+    from tress.app.settings import settings, suggestion
+    from tress.base.errors import ParameterError
     from tress.methods.portrait.params import PortraitParams
 
-    rows = [row for row in settings(PortraitParams()) if stage is None or row.name.split(".")[0] == stage]
-    _refuse_unknown(stage, found=bool(rows))
+    found = list(settings(PortraitParams()))
+    stages = sorted({row.name.split(".")[0] for row in found if "." in row.name})
+    rows = [row for row in found if stage is None or row.name.split(".")[0] == stage]
+    if not rows:
+        raise ParameterError(f"{stage} is no stage with parameters;{suggestion(str(stage), stages)}")
     if json_output:
         import json
 
@@ -30,10 +34,3 @@ def params(
 
         heads = ["parameter", "default", "range", "unit", "what it does"]
         print_table(heads, [(row.name, row.default, row.limits, row.unit, row.doc) for row in rows])
-
-
-def _refuse_unknown(stage: str | None, *, found: bool) -> None:
-    from tress.base.errors import ParameterError
-
-    if not found:
-        raise ParameterError(f"{stage} is no stage with parameters; `tress params` lists all.")

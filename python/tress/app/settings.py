@@ -49,7 +49,7 @@ def with_settings(params: P, assignments: Sequence[str]) -> P:
         if not equals:
             raise ParameterError(f"--set {assignment} has no value; write it as stage.name=value.")
         if name not in known:
-            raise ParameterError(f"--set {name} names no parameter;{_suggestion(name, list(known))}")
+            raise ParameterError(f"--set {name} names no parameter;{suggestion(name, list(known))}")
         params = _assigned(params, name, _parsed(name, words, known[name].default))
     return params
 
@@ -84,7 +84,8 @@ def _kind_words(kind: type) -> str:
     return {bool: "true or false", int: "whole number", str: "name"}.get(kind, "number")
 
 
-def _suggestion(name: str, known: list[str]) -> str:
+def suggestion(name: str, known: list[str]) -> str:
+    """What to say after an unknown name: the nearest of the `known`, if one is near, and where all are listed."""
     nearest = difflib.get_close_matches(name, known, n=1, cutoff=0.4)
     meant = f" did you mean {nearest[0]}?" if nearest else ""
     return f"{meant} `tress params` lists them all."
