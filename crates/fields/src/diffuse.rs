@@ -8,15 +8,12 @@
 
 use rayon::prelude::*;
 
+use crate::diffusion_system::{Solved, System};
 use crate::error::check_number;
-use crate::sums::dots;
 use crate::{FieldError, GridShape};
 
-const NONE: u32 = u32::MAX;
 /// Up to so many cells the iteration starts from zero.
 const COARSEST: usize = 2000;
-/// Fewest cells that are worth a thread of their own: a step over a small picture is over before others could begin.
-const GRAIN: usize = 8192;
 
 /// What to stop at.
 #[derive(Clone, Copy, Debug)]
@@ -161,154 +158,6 @@ impl Coarse {
     }
 }
 
-struct System {
-    cells: Vec<u32>,
-    links: Vec<[u32; 6]>,
-    fixed: Vec<[u32; 6]>,
-    diagonal: Vec<f64>,
-}
-
-struct Solved {
-    values: Vec<f64>,
-    iterations: usize,
-    converged: bool,
-}
-
-impl System {
-    fn new(mask: &[bool], weights: &[f64], shape: GridShape) -> Self {
-        let free = |cell: usize| mask[cell] && weights[cell].is_finite();
-        let cells: Vec<u32> = (0..shape.len()).filter(|&cell| free(cell)).map(|cell| cell as u32).collect();
-        let mut number = vec![NONE; shape.len()];
-        for (row, &cell) in cells.iter().enumerate() {
-            number[cell as usize] = row as u32;
-        }
-        let pairs: Vec<([u32; 6], [u32; 6])> = cells
-            .par_iter()
-            .map(|&cell| {
-                let near = shape.neighbours(cell as usize);
-                let link = near.map(|n| n.map_or(NONE, |n| number[n]));
-                let fixed = near.map(|n| n.filter(|&n| mask[n] && weights[n].is_infinite()).map_or(NONE, |n| n as u32));
-                (link, fixed)
-            })
-            .collect();
-        let diagonal = cells
-            .iter()
-            .zip(&pairs)
-            .map(|(&cell, (link, fixed))| {
-                let degree = link.iter().chain(fixed).filter(|&&n| n != NONE).count();
-                weights[cell as usize] + degree as f64
-            })
-            .collect();
-        let (links, fixed) = pairs.into_iter().unzip();
-        Self { cells, links, fixed, diagonal }
-    }
-
-    /// The matrix times `x`; both hold `channels` values a row.
-    fn apply(&self, x: &[f64], out: &mut [f64], channels: usize) {
-        out.par_chunks_mut(channels).with_min_len(GRAIN).enumerate().for_each(|(row, out)| {
-            let own = &x[row * channels..(row + 1) * channels];
-            for (out, own) in out.iter_mut().zip(own) {
-                *out = self.diagonal[row] * own;
-            }
-            for &n in self.links[row].iter().filter(|&&n| n != NONE) {
-                let near = &x[n as usize * channels..(n as usize + 1) * channels];
-                for (out, near) in out.iter_mut().zip(near) {
-                    *out -= near;
-                }
-            }
-        });
-    }
-
-    fn right_side(&self, weights: &[f64], values: &[f64], channels: usize) -> Vec<f64> {
-        let mut b = vec![0.0; self.cells.len() * channels];
-        b.par_chunks_mut(channels).enumerate().for_each(|(row, b)| {
-            let cell = self.cells[row] as usize;
-            let mut add = |cell: usize, weight: f64| {
-                for (b, value) in b.iter_mut().zip(&values[cell * channels..(cell + 1) * channels]) {
-                    *b += weight * value;
-                }
-            };
-            if weights[cell] > 0.0 {
-                add(cell, weights[cell]);
-            }
-            for &n in self.fixed[row].iter().filter(|&&n| n != NONE) {
-                add(n as usize, 1.0);
-            }
-        });
-        b
-    }
-
-    /// `r` over the diagonal.
-    fn scale(&self, r: &[f64], z: &mut [f64], channels: usize) {
-        z.par_chunks_mut(channels).zip(r.par_chunks(channels)).with_min_len(GRAIN).enumerate().for_each(
-            |(row, (z, r))| {
-                let factor = if self.diagonal[row] > 0.0 { 1.0 / self.diagonal[row] } else { 0.0 };
-                for (z, r) in z.iter_mut().zip(r) {
-                    *z = factor * r;
-                }
-            },
-        );
-    }
-
-    /// All channels in step, each with its own step lengths: a neighbour's values are fetched once for all of them.
-    fn solve(
-        &self,
-        weights: &[f64],
-        values: &[f64],
-        start: &[f64],
-        channels: usize,
-        options: DiffuseOptions,
-    ) -> Solved {
-        let b = self.right_side(weights, values, channels);
-        let goal: Vec<f64> = dots(&b, &b, channels).iter().map(|bb| options.accuracy * bb.sqrt()).collect();
-        let mut x = vec![0.0; b.len()];
-        let mut image = vec![0.0; b.len()];
-        if !start.is_empty() {
-            x.par_chunks_mut(channels).zip(&self.cells).for_each(|(x, &cell)| {
-                x.copy_from_slice(&start[cell as usize * channels..(cell as usize + 1) * channels]);
-            });
-            self.apply(&x, &mut image, channels);
-        }
-        let mut r = b;
-        r.par_iter_mut().zip(&image).for_each(|(r, q)| *r -= q);
-        let mut z = vec![0.0; r.len()];
-        self.scale(&r, &mut z, channels);
-        let mut p = z.clone();
-        let mut rz = dots(&r, &z, channels);
-        let mut iterations = 0;
-        let reached = |r: &[f64]| dots(r, r, channels).iter().zip(&goal).all(|(rr, goal)| rr.sqrt() <= *goal);
-        while iterations < options.max_iterations && !reached(&r) {
-            self.apply(&p, &mut image, channels);
-            let curvature = dots(&p, &image, channels);
-            let ratio = |(a, b): (&f64, &f64)| if *b > 0.0 { a / b } else { 0.0 };
-            let step: Vec<f64> = rz.iter().zip(&curvature).map(ratio).collect();
-            add_scaled(&mut x, &p, &step, 1.0);
-            add_scaled(&mut r, &image, &step, -1.0);
-            self.scale(&r, &mut z, channels);
-            let next = dots(&r, &z, channels);
-            let turn: Vec<f64> = next.iter().zip(&rz).map(ratio).collect();
-            rz = next;
-            p.par_chunks_mut(channels).zip(z.par_chunks(channels)).with_min_len(GRAIN).for_each(|(p, z)| {
-                for ((p, z), turn) in p.iter_mut().zip(z).zip(&turn) {
-                    *p = z + turn * *p;
-                }
-            });
-            iterations += 1;
-        }
-        Solved { converged: reached(&r), values: x, iterations }
-    }
-}
-
-/// `x += sign * step * y`, a step a channel.
-fn add_scaled(x: &mut [f64], y: &[f64], step: &[f64], sign: f64) {
-    let channels = step.len();
-    x.par_chunks_mut(channels).zip(y.par_chunks(channels)).with_min_len(GRAIN).for_each(|(x, y)| {
-        for ((x, y), step) in x.iter_mut().zip(y).zip(step) {
-            *x += sign * step * y;
-        }
-    });
-}
-
 fn gather(
     system: &System,
     weights: &[f64],
@@ -357,10 +206,12 @@ mod tests {
         let shape = GridShape { layers: 1, rows: 5, columns: 5 };
         let mask = vec![true; 25];
         let weights: Vec<f64> = (0..25).map(|c| f64::from(u8::from(c % 6 == 0))).collect();
-        let two: Vec<f64> = (0..50).map(|i| (i * 7 % 11) as f64).collect();
-        let one: Vec<f64> = two.iter().skip(1).step_by(2).copied().collect();
-        let both = diffuse(&mask, &weights, &two, 2, shape, OPTIONS).expect("fits");
-        let alone = diffuse(&mask, &weights, &one, 1, shape, OPTIONS).expect("fits");
-        assert!((0..25).all(|c| (both.values[2 * c + 1] - alone.values[c]).abs() < 1e-12));
+        for channels in [2, 9] {
+            let many: Vec<f64> = (0..25 * channels).map(|i| (i * 7 % 11) as f64).collect();
+            let one: Vec<f64> = many.iter().skip(1).step_by(channels).copied().collect();
+            let all = diffuse(&mask, &weights, &many, channels, shape, OPTIONS).expect("fits");
+            let alone = diffuse(&mask, &weights, &one, 1, shape, OPTIONS).expect("fits");
+            assert!((0..25).all(|c| (all.values[channels * c + 1] - alone.values[c]).abs() < 1e-12));
+        }
     }
 }

@@ -1,22 +1,21 @@
 //! Exact Euclidean distance to the nearest marked voxel.
 //!
-//! Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions" (2012): the lower envelope of parabolas along
-//! x, then y, then z. Linear in the number of voxels; the lines of one axis are independent and run in parallel.
+//! Squared distances grow axis by axis: along x by two sweeps, along y and z as the least of `squared[j] + (i - j)²`
+//! over the places j of a line. That least is sought outwards from i until no farther place can be nearer, in many
+//! neighbouring lines at once: they lie side by side in memory, and wide registers hold them. The cost of a voxel grows
+//! with its distance; up to hundreds of voxels this is faster than the lower envelope of parabolas (`nearest`), which is
+//! linear but goes line by line and branches at every voxel. Squares are whole numbers, exact in `f32` up to 4096
+//! voxels; lines are independent and run in parallel.
 
+use pulp::Arch;
 use rayon::prelude::*;
 
 use crate::{FieldError, GridShape};
 
-const FAR: f64 = 1e15;
-
-/// Where the nearest marked cell is, a cell.
-#[derive(Clone, Debug)]
-pub struct Nearest {
-    /// Distance in voxels from the cell's centre to that of the nearest marked cell; infinite where none is marked.
-    pub distance: Vec<f32>,
-    /// Number of that cell; its own where none is marked. Of several equally near, one that depends on nothing but the marks.
-    pub cell: Vec<u32>,
-}
+/// Lines that are looked at together.
+const BLOCK: usize = 32;
+/// Places to either side that are looked at before it is asked whether farther ones can be nearer.
+const STRIDE: usize = 4;
 
 /// Distance in voxels from every cell's centre to the centre of the nearest cell where `inside` is true; 0 there.
 ///
@@ -25,120 +24,126 @@ pub struct Nearest {
 /// # Errors
 /// `inside` does not have `shape.len()` entries.
 pub fn distance(inside: &[bool], shape: GridShape) -> Result<Vec<f32>, FieldError> {
-    Ok(nearest(inside, shape)?.distance)
-}
-
-/// The nearest cell where `inside` is true, of every cell.
-///
-/// # Errors
-/// `inside` does not have `shape.len()` entries.
-pub fn nearest(inside: &[bool], shape: GridShape) -> Result<Nearest, FieldError> {
     shape.expect("inside", inside.len())?;
-    let mut found: Vec<Place> = inside
-        .par_iter()
-        .enumerate()
-        .map(|(cell, &marked)| Place { squared: if marked { 0.0 } else { FAR }, cell: cell as u32 })
-        .collect();
-    along_rows(&mut found, shape.columns);
-    found = along_strided(found, shape.layers, shape.rows, shape.columns);
-    found = along_strided(found, 1, shape.layers, shape.rows * shape.columns);
-    let root = |d: f64| if d >= FAR / 2.0 { f32::INFINITY } else { d.sqrt() as f32 };
-    Ok(Nearest {
-        distance: found.par_iter().map(|place| root(place.squared)).collect(),
-        cell: found.par_iter().map(|place| place.cell).collect(),
-    })
-}
-
-/// Squared distance to a cell, and its number.
-#[derive(Clone, Copy)]
-struct Place {
-    squared: f64,
-    cell: u32,
-}
-
-fn along_rows(values: &mut [Place], width: usize) {
-    values.par_chunks_mut(width.max(1)).for_each_init(Envelope::default, |envelope, line| envelope.apply(line));
-}
-
-/// `values` is (outer, length, inner); every line along `length` is transformed.
-fn along_strided(values: Vec<Place>, outer: usize, length: usize, inner: usize) -> Vec<Place> {
-    if length < 2 {
-        return values;
+    if shape.is_empty() {
+        return Ok(Vec::new());
     }
-    let lines: Vec<Vec<Place>> = (0..outer * inner)
-        .into_par_iter()
-        .map_init(Envelope::default, |envelope, line| {
-            let start = (line / inner) * length * inner + line % inner;
-            let mut buffer: Vec<Place> = (0..length).map(|i| values[start + i * inner]).collect();
-            envelope.apply(&mut buffer);
-            buffer
-        })
-        .collect();
-    let mut out = values;
-    out.par_chunks_mut(inner).enumerate().for_each(|(sheet, row)| {
-        let (block, place) = (sheet / length, sheet % length);
-        for (i, value) in row.iter_mut().enumerate() {
-            *value = lines[block * inner + i][place];
-        }
+    let GridShape { layers, rows, columns } = shape;
+    let processor = Arch::new();
+    let mut found = vec![0.0; shape.len()];
+    found.par_chunks_mut(rows * columns).zip(inside.par_chunks(rows * columns)).for_each_init(
+        Sheet::default,
+        |sheet, (out, marks)| {
+            sheet.fill(marks.chunks(columns), along_row);
+            processor.dispatch(|| sheet.across(out));
+        },
+    );
+    // Row by row of the box: each is a sheet of layers and columns.
+    let mut turned = vec![0.0; shape.len()];
+    turned.par_chunks_mut(layers * columns).enumerate().for_each_init(Sheet::default, |sheet, (row, out)| {
+        sheet.fill(found.chunks(columns).skip(row).step_by(rows), <[f32]>::copy_from_slice);
+        processor.dispatch(|| sheet.across(out));
     });
-    out
+    found.par_chunks_mut(columns).enumerate().for_each(|(line, out)| {
+        let start = (line % rows * layers + line / rows) * columns;
+        out.iter_mut().zip(&turned[start..start + columns]).for_each(|(out, squared)| *out = squared.sqrt());
+    });
+    Ok(found)
 }
 
-/// The lower envelope of parabolas: their apexes and where each takes over.
+/// Squared distance along a row to its nearest mark, infinite where there is none.
+fn along_row(squared: &mut [f32], marks: &[bool]) {
+    let mut far = f32::INFINITY;
+    for (value, &marked) in squared.iter_mut().zip(marks) {
+        far = if marked { 0.0 } else { far + 1.0 };
+        *value = far;
+    }
+    for value in squared.iter_mut().rev() {
+        far = value.min(far + 1.0);
+        *value = far * far;
+    }
+}
+
+/// A block of neighbouring lines at one place.
+type Places = [f32; BLOCK];
+
+/// Lines side by side, in blocks: `[block][place]`, the last block filled up with zeros.
 #[derive(Default)]
-struct Envelope {
-    apex: Vec<usize>,
-    start: Vec<f64>,
-    height: Vec<Place>,
+struct Sheet {
+    blocks: Vec<Places>,
+    length: usize,
+    width: usize,
 }
 
-impl Envelope {
-    fn apply(&mut self, line: &mut [Place]) {
-        self.build(line);
-        let mut k = 0;
-        for (i, value) in line.iter_mut().enumerate() {
-            while k + 1 < self.apex.len() && self.start[k + 1] <= i as f64 {
-                k += 1;
+impl Sheet {
+    /// One row of `width` values, one a line, for every place along the lines; `put` writes it.
+    fn fill<'a, T: 'a>(&mut self, rows: impl Iterator<Item = &'a [T]>, put: impl Fn(&mut [f32], &[T])) {
+        let rows: Vec<&[T]> = rows.collect();
+        (self.length, self.width) = (rows.len(), rows[0].len());
+        self.blocks.clear();
+        self.blocks.resize(self.length * self.width.div_ceil(BLOCK), [0.0; BLOCK]);
+        let mut values = vec![0.0; self.width];
+        for (place, row) in rows.iter().enumerate() {
+            put(&mut values, row);
+            for (block, values) in values.chunks(BLOCK).enumerate() {
+                self.blocks[block * self.length + place][..values.len()].copy_from_slice(values);
             }
-            let step = i as f64 - self.apex[k] as f64;
-            let low = self.height[k];
-            *value = Place { squared: (low.squared + step * step).min(FAR), cell: low.cell };
         }
     }
 
-    fn build(&mut self, line: &[Place]) {
-        self.apex.clear();
-        self.start.clear();
-        self.height.clear();
-        for (i, &height) in line.iter().enumerate() {
-            let mut from = f64::NEG_INFINITY;
-            while let (Some(&apex), Some(&low), Some(&start)) =
-                (self.apex.last(), self.height.last(), self.start.last())
-            {
-                let (i, a) = (i as f64, apex as f64);
-                from = ((height.squared + i * i) - (low.squared + a * a)) / (2.0 * (i - a));
-                if from > start {
-                    break;
-                }
-                self.apex.pop();
-                self.start.pop();
-                self.height.pop();
-                from = f64::NEG_INFINITY;
+    /// `out[i] = min over j of lines[j] + (i - j)²`, row by row.
+    #[inline(always)]
+    fn across(&self, out: &mut [f32]) {
+        for (block, lines) in self.blocks.chunks(self.length).enumerate() {
+            let columns = block * BLOCK..self.width.min((block + 1) * BLOCK);
+            for (i, out) in out.chunks_mut(self.width).enumerate() {
+                out[columns.clone()].copy_from_slice(&least(lines, i)[..columns.len()]);
             }
-            self.apex.push(i);
-            self.start.push(from);
-            self.height.push(height);
         }
+    }
+}
+
+/// Least of `lines[j] + (i - j)²`.
+#[inline(always)]
+fn least(lines: &[Places], i: usize) -> Places {
+    let mut least = lines[i];
+    let farthest = i.max(lines.len() - 1 - i);
+    for nearest in (1..=farthest).step_by(STRIDE) {
+        let bound = (nearest * nearest) as f32;
+        if !least.iter().fold(false, |farther, value| farther | (*value > bound)) {
+            break;
+        }
+        for away in nearest..nearest + STRIDE {
+            let more = (away * away) as f32;
+            if away <= i {
+                lower(&mut least, &lines[i - away], more);
+            }
+            if i + away < lines.len() {
+                lower(&mut least, &lines[i + away], more);
+            }
+        }
+    }
+    least
+}
+
+#[inline(always)]
+fn lower(least: &mut Places, squared: &Places, more: f32) {
+    for (least, squared) in least.iter_mut().zip(squared) {
+        let here = squared + more;
+        *least = if here < *least { here } else { *least };
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
+    use crate::nearest::nearest;
 
     #[test]
     fn distance_to_two_voxels_is_the_nearer_one() {
-        let shape = GridShape { layers: 5, rows: 7, columns: 9 };
+        let shape = GridShape { layers: 5, rows: 7, columns: 39 };
         let marks = [[1, 2, 3], [4, 6, 0]];
         let mut inside = vec![false; shape.len()];
         for [z, y, x] in marks {
@@ -156,21 +161,22 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_cell_is_marked_and_as_far_as_said() {
-        let shape = GridShape { layers: 6, rows: 8, columns: 7 };
-        let inside: Vec<bool> = (0..shape.len()).map(|cell| cell * 37 % 23 == 0).collect();
-        let found = nearest(&inside, shape).expect("fits");
-        for cell in 0..shape.len() {
-            let near = found.cell[cell] as usize;
-            let (from, to) = (shape.place(cell), shape.place(near));
-            let squared: f64 = (0..3).map(|k| (from[k] as f64 - to[k] as f64).powi(2)).sum();
-            assert!(inside[near] && (squared.sqrt() - f64::from(found.distance[cell])).abs() < 1e-5);
-        }
-    }
-
-    #[test]
     fn nothing_marked_is_infinitely_far() {
         let shape = GridShape { layers: 2, rows: 2, columns: 2 };
         assert!(distance(&[false; 8], shape).expect("fits").iter().all(|d| d.is_infinite()));
+    }
+
+    proptest! {
+        #[test]
+        fn the_lower_envelope_of_parabolas_gives_the_same_bits(
+            (layers, rows, columns) in (1usize..20, 1usize..30, 1usize..70),
+            share in 1usize..400,
+            seed in any::<u32>(),
+        ) {
+            let shape = GridShape { layers, rows, columns };
+            let mixed = |cell: usize| (cell as u32 ^ seed).wrapping_mul(2_654_435_761) >> 8;
+            let inside: Vec<bool> = (0..shape.len()).map(|cell| (mixed(cell) as usize).is_multiple_of(share)).collect();
+            prop_assert_eq!(distance(&inside, shape).expect("fits"), nearest(&inside, shape).expect("fits").distance);
+        }
     }
 }

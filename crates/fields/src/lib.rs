@@ -3,11 +3,13 @@
 pub mod axes;
 pub mod depth;
 pub mod diffuse;
+mod diffusion_system;
 pub mod distance;
 mod error;
 mod front_sheet;
 mod grid;
 pub mod mesh_depth;
+pub mod nearest;
 pub mod neighbours;
 pub mod principal;
 pub mod sample;

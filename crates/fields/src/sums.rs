@@ -3,8 +3,10 @@
 use rayon::prelude::*;
 
 const CHUNK: usize = 4096;
-/// Fewest chunks that are worth a thread of their own.
-const CHUNKS: usize = 8;
+/// Cells whose sums are added up first.
+const CELLS: usize = 1024;
+/// Fewest cells that are worth a thread of their own: a pass over a few is over before others could begin.
+pub(crate) const SUMMED: usize = 8192;
 
 /// Inner product by fixed chunks, added in their order.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -13,28 +15,23 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     parts.iter().sum()
 }
 
-/// Inner products of every channel, `channels` values a row.
-pub(crate) fn dots(a: &[f64], b: &[f64], channels: usize) -> Vec<f64> {
-    let size = CHUNK / 4 * channels;
-    let parts: Vec<Vec<f64>> = a
-        .par_chunks(size)
-        .zip(b.par_chunks(size))
-        .with_min_len(CHUNKS)
-        .map(|(a, b)| {
-            let mut sums = vec![0.0; channels];
-            for (a, b) in a.chunks_exact(channels).zip(b.chunks_exact(channels)) {
-                for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
-                    *sum += a * b;
-                }
-            }
-            sums
+/// Visits all `cells`, which may be changed, and adds up what `visit` gives for each: by fixed chunks, added in their order.
+pub(crate) fn sums<T: Send, const K: usize, const N: usize>(
+    cells: &mut [T],
+    visit: impl Fn(usize, &mut T) -> [[f64; K]; N] + Sync,
+) -> [[f64; K]; N] {
+    let add = |mut total: [[f64; K]; N], part: [[f64; K]; N]| {
+        total.iter_mut().flatten().zip(part.as_flattened()).for_each(|(total, part)| *total += part);
+        total
+    };
+    let parts: Vec<[[f64; K]; N]> = cells
+        .par_chunks_mut(CELLS)
+        .with_min_len(SUMMED / CELLS)
+        .enumerate()
+        .map(|(chunk, cells)| {
+            let cells = cells.iter_mut().enumerate();
+            cells.fold([[0.0; K]; N], |total, (k, cell)| add(total, visit(chunk * CELLS + k, cell)))
         })
         .collect();
-    let mut total = vec![0.0; channels];
-    for part in &parts {
-        for (total, part) in total.iter_mut().zip(part) {
-            *total += part;
-        }
-    }
-    total
+    parts.into_iter().fold([[0.0; K]; N], add)
 }

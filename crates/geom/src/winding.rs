@@ -26,7 +26,8 @@ struct Dipole {
     centre: DVec3,
     area_normal: DVec3,
     area: f64,
-    radius: f64,
+    /// Square of the distance from which it stands for its triangles.
+    far_sq: f64,
 }
 
 impl<'a> WindingTree<'a> {
@@ -47,13 +48,14 @@ impl<'a> WindingTree<'a> {
     /// The winding number at a point: about 1 inside, 0 outside, 1/2 on the surface and in the middle of a hole.
     pub fn winding_number(&self, query: DVec3) -> f64 {
         let mut sum = 0.0;
-        let mut stack = vec![0usize];
+        let mut stack = Vec::with_capacity(64);
+        stack.push(0usize);
         while let Some(index) = stack.pop() {
             let dipole = &self.dipoles[index];
             let offset = dipole.centre - query;
-            let distance = offset.length();
-            if distance > ACCEPTANCE * dipole.radius {
-                sum += dipole.area_normal.dot(offset) / distance.powi(3);
+            let distance_sq = offset.length_squared();
+            if distance_sq > dipole.far_sq {
+                sum += dipole.area_normal.dot(offset) / (distance_sq * distance_sq.sqrt());
                 continue;
             }
             let node = &self.bvh.nodes[index];
@@ -61,7 +63,7 @@ impl<'a> WindingTree<'a> {
                 stack.extend([node.first as usize + 1, node.first as usize]);
                 continue;
             }
-            sum += self.bvh.corners[Bvh::slots(node)].iter().map(|c| solid_angle(c, query)).sum::<f64>();
+            sum += solid_angles(&self.bvh.corners[Bvh::slots(node)], query);
         }
         sum / (4.0 * std::f64::consts::PI)
     }
@@ -76,7 +78,7 @@ pub fn winding_numbers(bvh: &Bvh, queries: &[DVec3]) -> Vec<f64> {
 fn joined(a: &Dipole, b: &Dipole, node: &Node) -> Dipole {
     let area = a.area + b.area;
     let centre = if area > 0.0 { (a.centre * a.area + b.centre * b.area) / area } else { node.bounds.centre() };
-    Dipole { centre, area_normal: a.area_normal + b.area_normal, area, radius: reach(centre, node) }
+    Dipole { centre, area_normal: a.area_normal + b.area_normal, area, far_sq: far_sq(centre, node) }
 }
 
 fn leaf_dipole(triangles: &[[DVec3; 3]], node: &Node) -> Dipole {
@@ -89,19 +91,80 @@ fn leaf_dipole(triangles: &[[DVec3; 3]], node: &Node) -> Dipole {
         sum.centre += (*a + *b + *c) * (area / 3.0);
     }
     sum.centre = if sum.area > 0.0 { sum.centre / sum.area } else { node.bounds.centre() };
-    Dipole { radius: reach(sum.centre, node), ..sum }
+    Dipole { far_sq: far_sq(sum.centre, node), ..sum }
 }
 
-/// Distance of the box's farthest corner.
-fn reach(centre: DVec3, node: &Node) -> f64 {
-    (centre - node.bounds.min).max(node.bounds.max - centre).length()
+/// Square of `ACCEPTANCE` times the distance of the box's farthest corner.
+fn far_sq(centre: DVec3, node: &Node) -> f64 {
+    ACCEPTANCE * ACCEPTANCE * (centre - node.bounds.min).max(node.bounds.max - centre).length_squared()
 }
 
-/// Signed solid angle of a triangle (van Oosterom and Strackee 1983), positive seen from behind.
-fn solid_angle(corners: &[DVec3; 3], query: DVec3) -> f64 {
+/// Signed solid angles of triangles (van Oosterom and Strackee 1983), added up; positive seen from behind.
+///
+/// Half of each is the angle of a complex number. Where that is within an eighth of a turn, four of them add up without
+/// going round as the angle of their product, and one arctangent does for all.
+fn solid_angles(triangles: &[[DVec3; 3]], query: DVec3) -> f64 {
+    let (mut real, mut imaginary, mut factors, mut sum) = (1.0, 0.0, 0, 0.0);
+    for corners in triangles {
+        let (re, im) = half_solid_angle(corners, query);
+        if re <= im.abs() {
+            sum += im.atan2(re);
+            continue;
+        }
+        // Of length 1 to 1.5, so that products neither vanish nor overflow.
+        (real, imaginary) = (real - imaginary * (im / re), imaginary + real * (im / re));
+        factors += 1;
+        if factors == 4 {
+            sum += f64::atan2(imaginary, real);
+            (real, imaginary, factors) = (1.0, 0.0, 0);
+        }
+    }
+    2.0 * (sum + imaginary.atan2(real))
+}
+
+/// A complex number whose angle is half the triangle's solid angle.
+fn half_solid_angle(corners: &[DVec3; 3], query: DVec3) -> (f64, f64) {
     let [a, b, c] = corners.map(|p| p - query);
     let (la, lb, lc) = (a.length(), b.length(), c.length());
-    let numerator = a.dot(b.cross(c));
-    let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-    2.0 * numerator.atan2(denominator)
+    (la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb, a.dot(b.cross(c)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Triangles of all sizes around the origin, from pseudo-random corners.
+    fn triangles(count: usize) -> Vec<[DVec3; 3]> {
+        let mut state = 1u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / f64::from(1 << 24) - 0.5
+        };
+        let mut point = |size: f64| DVec3::new(next(), next(), next()) * size;
+        (0..count)
+            .map(|k| {
+                let (middle, size) = (point(2.0), [0.05, 0.5, 3.0][k % 3]);
+                [0; 3].map(|_| middle + point(size))
+            })
+            .collect()
+    }
+
+    #[test]
+    fn one_arctangent_for_many_gives_the_sum_of_theirs() {
+        let triangles = triangles(3000);
+        for leaf in triangles.chunks(5) {
+            let one_by_one: f64 = leaf
+                .iter()
+                .map(|corners| half_solid_angle(corners, DVec3::ZERO))
+                .map(|(re, im)| 2.0 * im.atan2(re))
+                .sum();
+            assert!((solid_angles(leaf, DVec3::ZERO) - one_by_one).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn an_octant_has_an_eighth_of_the_sphere() {
+        let found = solid_angles(&[[DVec3::X, DVec3::Y, DVec3::Z]], DVec3::ZERO);
+        assert!((found.abs() - std::f64::consts::FRAC_PI_2).abs() < 1e-14);
+    }
 }

@@ -17,7 +17,7 @@ use crate::sparse_cg::SparseSymmetric;
 
 const SHIFTS: [f64; 6] = [0.0, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 const NONE: u32 = u32::MAX;
-const ROWS_PER_BLOCK: usize = 50_000;
+const ROWS_PER_BLOCK: usize = 20_000;
 
 /// No shift of the diagonal made all pivots positive.
 #[derive(Debug, Error, PartialEq, Eq)]
