@@ -9,6 +9,7 @@ import numpy as np
 from tress import __version__
 from tress.base.errors import InputError
 from tress.base.report import Report
+from tress.head.assets import asset
 from tress.io.fingerprint import fingerprint
 from tress.io.stage_cache import StageCache
 from tress.methods.portrait.corrections import Corrections
@@ -70,8 +71,8 @@ def run_stages(
 
 
 def fingerprints(stages: Sequence[Stage], work: Work) -> dict[str, str]:
-    """For every stage, what stands for all that its result depends on: photo, parameters, corrections, version."""
-    sofar = fingerprint(__version__, work.pixels, work.alpha, work.params.seed)
+    """For every stage, what stands for all that its result depends on: photo, parameters, corrections, version, head model."""
+    sofar = fingerprint(__version__, asset("provenance.json").read_text(), work.pixels, work.alpha, work.params.seed)
     result: dict[str, str] = {}
     for stage in stages:
         corrections = [getattr(work.corrections, name) for name in stage.corrections]
