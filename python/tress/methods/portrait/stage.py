@@ -71,7 +71,7 @@ def run_stages(
 
 
 def fingerprints(stages: Sequence[Stage], work: Work) -> dict[str, str]:
-    """For every stage, what stands for all that its result depends on: photo, parameters, corrections, version, head model."""
+    """For every stage, what stands for all it depends on: photo, parameters, corrections, version, head model."""
     sofar = fingerprint(__version__, asset("provenance.json").read_text(), work.pixels, work.alpha, work.params.seed)
     result: dict[str, str] = {}
     for stage in stages:
