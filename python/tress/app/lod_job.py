@@ -6,11 +6,10 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from PIL import Image
 
+from tress.app.level_sheet import Comparison, level_sheet
 from tress.app.saved_document import opened
-from tress.base.color import linear_to_srgb8
 from tress.base.report import Report
 from tress.io.atomic import OutputFolder
 from tress.io.card_levels import CardLevels, card_levels
@@ -21,16 +20,8 @@ from tress.methods.strips.level_likeness import Likeness, level_points, likeness
 from tress.methods.strips.level_switch import HYSTERESIS
 from tress.methods.strips.levels import LevelChain, LevelParams, level_chain
 from tress.model.document import Document
-from tress.render.card_points import CardView
-from tress.render.preview import contact_sheet
-from tress.render.turntable import BACKDROP
-
-Array = np.ndarray[Any, Any]
 
 NAME = "hair"
-PREVIEW_PX_PER_M = 900.0
-PREVIEW_VIEWS = 2
-PREVIEW_HEIGHT = 420
 
 
 @dataclass(frozen=True)
@@ -62,42 +53,44 @@ def run_lod(options: LodOptions, *, report: Report) -> Delivery:
         for number, level in enumerate(chain.levels):
             report.number(f"triangles_{number}", level.triangles)
             report.number(f"strips_{number}", len(level.names))
-    found = _measured(document, chain, options, report) if options.measure else ()
+    pairs, found = _measured(document, chain, options, report) if options.measure else ((), ())
     with report.stage("motion"):
         cards = card_levels(document, chain.levels, atlases=chain.atlases, coverage=chain.height_share)
         report.number("morph_targets", 0 if cards.motion is None else len(cards.motion.shapes))
     with OutputFolder(options.folder) as output:
         with report.stage("files"):
             _write(document, chain, cards, found, options, output.path)
+        with report.stage("preview"):
+            sheet = level_sheet(document, chain, compared=pairs, threshold=options.cards.threshold)
+            Image.fromarray(sheet).save(output.path / "preview.png", compress_level=4)
         write_report(report, output.path / "report.json", facts={"levels": asdict(options.levels)})
         files = tuple(sorted(file.relative_to(output.path) for file in output.path.rglob("*") if file.is_file()))
     return Delivery(options.folder, files)
 
 
-def _measured(document: Document, chain: LevelChain, options: LodOptions, report: Report) -> tuple[Likeness, ...]:
-    """Every level but the first against the first, where it takes over."""
+def _measured(
+    document: Document, chain: LevelChain, options: LodOptions, report: Report
+) -> tuple[tuple[Comparison, ...], tuple[Likeness, ...]]:
+    """Every level but the first beside the first, where it takes over: what is seen, and how alike it is."""
     with report.stage("likeness"):
-        found = tuple(_likeness(document, chain, number, options) for number in range(1, len(chain.levels)))
+        pairs = tuple(_compared(document, chain, number, options) for number in range(1, len(chain.levels)))
+        found = tuple(likeness(pair.level, pair.finest) for pair in pairs)
         for number, each in enumerate(found, start=1):
             report.number(f"silhouette_iou_{number}", each.silhouette_iou)
             report.number(f"color_difference_{number}", each.color_difference)
-        return found
+        return pairs, found
 
 
-def _likeness(document: Document, chain: LevelChain, number: int, options: LodOptions) -> Likeness:
-    px_per_m = options.levels.px_at_1_m / chain.takeover_m[number - 1]
+def _compared(document: Document, chain: LevelChain, number: int, options: LodOptions) -> Comparison:
+    distance = chain.takeover_m[number - 1]
+    px_per_m = options.levels.px_at_1_m / distance
+    spacing, threshold = spacing_for(px_per_m), options.cards.threshold
     clouds = [
-        level_points(
-            document,
-            chain.levels[index],
-            atlases=chain.atlases[index],
-            spacing_m=spacing_for(px_per_m),
-            threshold=options.cards.threshold,
-        )
-        for index in (0, number)
+        level_points(document, chain.levels[k], atlases=chain.atlases[k], spacing_m=spacing, threshold=threshold)
+        for k in (0, number)
     ]
-    reference, mine = views_of(clouds, px_per_m=px_per_m)
-    return likeness(mine, reference)
+    finest, level = views_of(clouds, px_per_m=px_per_m)
+    return Comparison(number, distance, level, finest)
 
 
 def _write(
@@ -114,7 +107,6 @@ def _write(
         data = encode_levels([level], name=NAME, motion=cards.motion, step=cards.step, params=options.cards)
         (folder / f"{NAME}_lod{number}.glb").write_bytes(data)
     (folder / "lod.json").write_text(json.dumps(_description(chain, cards, found), indent=2) + "\n")
-    Image.fromarray(_preview(document, chain, options)).save(folder / "preview.png", compress_level=4)
 
 
 def _description(chain: LevelChain, cards: CardLevels, found: Sequence[Likeness]) -> dict[str, Any]:
@@ -133,28 +125,3 @@ def _description(chain: LevelChain, cards: CardLevels, found: Sequence[Likeness]
         for number, level in enumerate(chain.levels)
     ]
     return {"hysteresis": HYSTERESIS, "levels": levels}
-
-
-def _preview(document: Document, chain: LevelChain, options: LodOptions) -> Array:
-    """Every level near by from two sides, and small where it takes over."""
-    clouds = [
-        level_points(
-            document,
-            level,
-            atlases=atlases,
-            spacing_m=spacing_for(PREVIEW_PX_PER_M),
-            threshold=options.cards.threshold,
-        )
-        for level, atlases in zip(chain.levels, chain.atlases, strict=True)
-    ]
-    views = views_of(clouds, px_per_m=PREVIEW_PX_PER_M, views=PREVIEW_VIEWS)
-    captions = [f"level {number}: {level.triangles} triangles" for number, level in enumerate(chain.levels)]
-    rows = [
-        contact_sheet([_shown(each[side]) for each in views], captions=captions, height=PREVIEW_HEIGHT)
-        for side in range(PREVIEW_VIEWS)
-    ]
-    return np.concatenate(rows)
-
-
-def _shown(view: CardView) -> Array:
-    return linear_to_srgb8(view.color + (1 - view.filled[..., None]) * BACKDROP)

@@ -99,9 +99,8 @@ def _cards(document: Document, level: Level, strips: StripSet, motion: Principal
     cards = []
     for atlas in np.unique(atlas_of):
         mine = np.flatnonzero(atlas_of == atlas)
-        names = tuple(level.names[index] for index in mine)
-        part = Level(names=names, segments=level.segments[mine], widening=level.widening[mine])
-        rows = np.concatenate([np.arange(*strips.offsets[place[name] :][:2]) for name in names])
+        part = level.part(mine)
+        rows = np.concatenate([np.arange(*strips.offsets[place[name] :][:2]) for name in part.names])
         moved = None if motion is None else replace(motion, shapes=motion.shapes[:, rows])
         cards.append(card_mesh(document, level_surface(document, part), atlas=str(atlas), motion=moved))
     return tuple(cards)

@@ -20,14 +20,17 @@ Array = np.ndarray[Any, Any]
 class Level:
     """What a level shows: S strips of a document in alphabetical order, in how many polygons, and how much widened.
 
-    `segments` (S, 2) int64 are equal intervals of the domains along and across; `widening` (S,) float64 the factor on
-    the widths, 1 for a strip as it is. Nothing else differs between levels: surfaces, texture coordinates, roots and
-    keyframes are those of the document. Raises `InputError` for other shapes and for numbers that are not positive.
+    `segments` (S, 2) int64 are intervals of the domains along and across; `widening` (S,) float64 the factor on the
+    widths, 1 for a strip as it is. `rows` says for each strip where it is divided along, (segments + 1,) float64 shares
+    of the domain that rise from 0 to 1; without them, and across, intervals are equal. Nothing else differs between
+    levels: surfaces, texture coordinates, roots and keyframes are those of the document. Raises `InputError` for other
+    shapes, for numbers that are not positive, and for rows that do not rise.
     """
 
     names: tuple[str, ...]
     segments: Array
     widening: Array
+    rows: tuple[Array, ...] = ()
 
     def __post_init__(self) -> None:
         count = len(self.names)
@@ -35,6 +38,18 @@ class Level:
             raise InputError(f"A level of {count} strips has segments {self.segments.shape}, {self.widening.shape}.")
         if count and (self.segments.min() < 1 or not self.widening.min() > 0):
             raise InputError("A level has a strip without polygons or width; positive numbers were expected.")
+
+        if self.rows and len(self.rows) != count:
+            raise InputError(f"A level of {count} strips has rows for {len(self.rows)}.")
+        for name, rows, along in zip(self.names, self.rows, self.segments[:, 0], strict=False):
+            if rows.shape != (along + 1,) or not (np.diff(rows) > 0).all() or rows[0] != 0 or rows[-1] != 1:
+                raise InputError(f"A level divides {name!r} at {rows}; {along + 1} numbers from 0 to 1 were expected.")
+
+    def part(self, index: Array) -> "Level":
+        """The level with those strips alone whose place is in `index` (K,)."""
+        rows = tuple(self.rows[place] for place in index) if self.rows else ()
+        names = tuple(self.names[place] for place in index)
+        return Level(names, self.segments[index], self.widening[index], rows)
 
     @property
     def triangles(self) -> int:
@@ -56,7 +71,7 @@ def level_surface(document: Document, level: Level) -> LevelSurface:
     Triangles without area at rest (where a strip ends in a point) are left out.
     """
     strips = strip_set(document, level.names)
-    grid = even_strip_grid(strips.records, segments=level.segments)
+    grid = even_strip_grid(strips.records, segments=level.segments, rows=level.rows)
     widened = replace(grid, weights=csr_array(grid.weights @ widening_matrix(strips.records, level.widening)))
     return LevelSurface(strips, replace(widened, triangles=_with_area(widened, strips)))
 

@@ -49,12 +49,15 @@ def strip_grid(strips: Sequence[Strip], *, pieces: tuple[int, int] | None = None
     return _grid(strips, [_by_span(strip, pieces or strip.degrees, density, shared) for strip in strips])
 
 
-def even_strip_grid(strips: Sequence[Strip], *, segments: Array) -> StripGrid:
+def even_strip_grid(strips: Sequence[Strip], *, segments: Array, rows: Sequence[Array] = ()) -> StripGrid:
     """A grid over each strip with `segments` (S, 2) equal intervals of its domain along and across: what a budget of
-    triangles allows it."""
+    triangles allows it. With `rows` for each strip, (segments + 1,) rising from 0 to 1, it is divided there along.
+    """
     shared: dict[tuple[Any, ...], _Patch] = {}
-    pairs = zip(strips, np.asarray(segments).tolist(), strict=True)
-    return _grid(strips, [_even(strip, counts, shared) for strip, counts in pairs])
+    counts = np.asarray(segments).tolist()
+    places = rows or [np.linspace(0, 1, along + 1) for along, _ in counts]
+    given = zip(strips, places, counts, strict=True)
+    return _grid(strips, [_divided(strip, along, across, shared) for strip, along, (_, across) in given])
 
 
 def _grid(strips: Sequence[Strip], patches: Sequence["_Patch"]) -> StripGrid:
@@ -90,19 +93,15 @@ def _by_span(strip: Strip, pieces: tuple[int, int], density: int, shared: dict[t
     return shared[key]
 
 
-def _even(strip: Strip, segments: Sequence[int], shared: dict[tuple[Any, ...], _Patch]) -> _Patch:
-    key = (strip.knots_u.tobytes(), strip.knots_v.tobytes(), strip.weights.shape, *segments)
+def _divided(strip: Strip, rows: Array, pieces_v: int, shared: dict[tuple[Any, ...], _Patch]) -> _Patch:
+    key = (strip.knots_u.tobytes(), strip.knots_v.tobytes(), strip.weights.shape, rows.tobytes(), pieces_v)
     if key not in shared:
         along, across = strip.weights.shape
-        parameters = [
-            np.linspace(*domain_of(knots, count=count), pieces + 1)
-            for knots, count, pieces in zip((strip.knots_u, strip.knots_v), (along, across), segments, strict=True)
-        ]
-        samples_u, samples_v = (
-            _samples(strip.knots_u, along, parameters[0]),
-            _samples(strip.knots_v, across, parameters[1]),
-        )
-        shared[key] = _new_patch(samples_u, samples_v, across)
+        low, high = domain_of(strip.knots_u, count=along)
+        parameters_u = np.clip(low * (1 - rows) + high * rows, low, high)
+        parameters_v = np.linspace(*domain_of(strip.knots_v, count=across), pieces_v + 1)
+        samples_u = _samples(strip.knots_u, along, parameters_u)
+        shared[key] = _new_patch(samples_u, _samples(strip.knots_v, across, parameters_v), across)
     return shared[key]
 
 

@@ -17,6 +17,8 @@ Array = np.ndarray[Any, Any]
 
 SKIN = (0.35, 0.22, 0.17)
 PER_SAMPLE = 1.5
+PORTION = 1 << 16
+"""Points made at once."""
 DEPTH_STEP_M = 1e-5
 NOTHING = np.iinfo(np.int64).max
 FIRST, SECOND = 0.7548776662466927, 0.5698402909980532
@@ -86,21 +88,30 @@ def _nearest(positions: Array, rows: Array, samples: int, wide: int, high: int) 
 
 
 def _sampled(mesh: Mesh, spacing_m: float, threshold: float, *, hair: bool) -> CardPoints:
+    """Points of one mesh, made in portions that stay in the processor's caches."""
     corners = mesh.positions[mesh.triangles].astype(np.float32)
     area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
     before = np.concatenate([[0.0], np.cumsum(area / spacing_m**2)])
-    count = np.diff(np.floor(before + 0.5).astype(np.int64))
-    triangle = np.repeat(np.arange(len(area)), count)
-    barycentric = _barycentric(len(triangle))
-    positions = _interpolated(corners, triangle, barycentric)
-    if mesh.texture is None or mesh.corner_uv is None or not hair:
-        return CardPoints(
-            positions, np.broadcast_to(np.array(SKIN, np.float32), positions.shape), np.full(len(positions), hair)
-        )
-    uv = _interpolated(mesh.corner_uv, triangle, barycentric)
-    pixels = mesh.texture.pixels
-    kept = np.flatnonzero(_tested(pixels, uv, threshold))
-    return CardPoints(positions[kept], _texels(pixels, uv[kept]), np.ones(len(kept), bool))
+    ends = np.floor(before + 0.5).astype(np.int64)
+    textured = mesh.texture is not None and mesh.corner_uv is not None and hair
+    linear = srgb_to_linear(mesh.texture.pixels[..., :3]).reshape(-1, 3) if textured and mesh.texture else None
+    parts = []
+    for start in range(0, int(ends[-1]), PORTION):
+        number = np.arange(start, min(start + PORTION, int(ends[-1])))
+        triangle = np.searchsorted(ends, number, side="right") - 1
+        barycentric = _barycentric(number)
+        if linear is None or mesh.texture is None or mesh.corner_uv is None:
+            positions = _interpolated(corners, triangle, barycentric)
+            color = np.broadcast_to(np.array(SKIN, np.float32), positions.shape)
+        else:
+            uv = _interpolated(mesh.corner_uv, triangle, barycentric)
+            kept = np.flatnonzero(_tested(mesh.texture.pixels, uv, threshold))
+            positions = _interpolated(corners, triangle[kept], barycentric[kept])
+            color = _texels(linear, mesh.texture.pixels.shape, uv[kept])
+        parts.append((positions, color))
+    positions = np.concatenate([np.zeros((0, 3), np.float32), *(part for part, _ in parts)])
+    color = np.concatenate([np.zeros((0, 3), np.float32), *(part for _, part in parts)])
+    return CardPoints(positions, color, np.full(len(positions), hair))
 
 
 def _interpolated(corners: Array, triangle: Array, barycentric: Array) -> Array:
@@ -111,18 +122,16 @@ def _interpolated(corners: Array, triangle: Array, barycentric: Array) -> Array:
     return total
 
 
-def _texels(pixels: Array, uv: Array) -> Array:
-    """(P, 3) float32 linear colours of the texels under the points."""
-    linear = srgb_to_linear(pixels[..., :3]).reshape(-1, 3)
-    height, width = pixels.shape[:2]
+def _texels(linear: Array, shape: tuple[int, ...], uv: Array) -> Array:
+    """(P, 3) float32 linear colours of the texels under the points, in a picture of that shape."""
+    height, width = shape[:2]
     column = np.clip((uv[:, 0] * width).astype(np.int64), 0, width - 1)
     row = np.clip(((1 - uv[:, 1]) * height).astype(np.int64), 0, height - 1)
     return linear[row * width + column]
 
 
-def _barycentric(count: int) -> Array:
-    """(count, 3) coordinates that fill the triangle evenly."""
-    number = np.arange(count)
+def _barycentric(number: Array) -> Array:
+    """(P, 3) float32 coordinates of the points of that number; following ones fill a triangle evenly."""
     b, c = (0.5 + number * FIRST) % 1.0, (0.5 + number * SECOND) % 1.0
     b, c = np.where(b + c > 1, 1 - b, b), np.where(b + c > 1, 1 - c, c)
     return np.stack([1 - b - c, b, c], axis=1).astype(np.float32)

@@ -62,19 +62,39 @@ def level_meshes(document: Document, level: Level, *, atlases: Mapping[str, Atla
     return meshes
 
 
-def views_of(points: Sequence[CardPoints], *, px_per_m: float, views: int = VIEWS) -> list[list[CardView]]:
-    """For each of several clouds its pictures from `views` directions around, in the frame of the first."""
-    hair = points[0].positions[points[0].hair]
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """`matrices` (3, 4) of affine cameras from around, and the size of their pictures in pixels."""
+
+    matrices: tuple[Array, ...]
+    width: int
+    height: int
+
+
+def frame_about(points: CardPoints, *, px_per_m: float, views: int = VIEWS) -> Frame:
+    """Cameras from `views` directions that keep the hair in the picture."""
+    hair = points.positions[points.hair]
     low, high = hair.min(axis=0), hair.max(axis=0)
     centre, size = 0.5 * (low + high), MARGIN * np.linalg.norm((high - low)[[0, 2]])
     width, height = (max(int(px_per_m * side) + 2, 4) for side in (size, MARGIN * (high - low)[1]))
     matrices = [
         _camera(2 * np.pi * k / views, centre=centre, scale=px_per_m, width=width, height=height) for k in range(views)
     ]
+    return Frame(tuple(matrices), width, height)
+
+
+def seen_in(frame: Frame, points: CardPoints) -> list[CardView]:
+    """The pictures of one cloud."""
     return [
-        [card_view(each, xy_from_world=matrix, width=width, height=height, samples=SAMPLES) for matrix in matrices]
-        for each in points
+        card_view(points, xy_from_world=matrix, width=frame.width, height=frame.height, samples=SAMPLES)
+        for matrix in frame.matrices
     ]
+
+
+def views_of(points: Sequence[CardPoints], *, px_per_m: float, views: int = VIEWS) -> list[list[CardView]]:
+    """For each of several clouds its pictures from `views` directions around, in the frame of the first."""
+    frame = frame_about(points[0], px_per_m=px_per_m, views=views)
+    return [seen_in(frame, each) for each in points]
 
 
 def spacing_for(px_per_m: float) -> float:

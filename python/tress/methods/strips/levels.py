@@ -16,6 +16,7 @@ from tress.base.errors import InputError
 from tress.base.params import Params, param
 from tress.base.report import Report
 from tress.kernel.tessellation import segments_for
+from tress.methods.strips.bent_rows import bent_rows
 from tress.methods.strips.level_textures import level_atlases
 from tress.methods.strips.merging import ALONG, merged
 from tress.methods.strips.visible_area import visible_area
@@ -35,6 +36,7 @@ HIDDEN_SHARE = 0.05
 """Of its whole area, what a strip counts for beside what is seen of it: textures let hair below show through."""
 STEPS = 12
 MOST_POLYGONS = 4096
+LINE = 48
 
 
 @dataclass(frozen=True)
@@ -121,12 +123,14 @@ def takeover_distances(triangles: Sequence[int], *, area_m2: float, params: Leve
 
 @dataclass(frozen=True, eq=False)
 class _Detail:
-    """What sharing out needs to know of S strips: `bend` (S,) square metres, the mean squared error of one polygon."""
+    """What sharing out needs to know of S strips: `bend` (S,) square metres, the mean squared error of one polygon;
+    `lines` (S, 49, 3) metres, points along their middles at even parameters."""
 
     strips: StripSet
     importance: Array
     bend: Array
     middles: Array
+    lines: Array
     kind: Array
 
     @staticmethod
@@ -143,8 +147,15 @@ class _Detail:
             importance=seen + HIDDEN_SHARE * area,
             bend=_bend(points),
             middles=points[:, ::2].mean(axis=2),
+            lines=_lines(strips),
             kind=np.array([order[str(label)] for label in labels]),
         )
+
+
+def _lines(strips: StripSet) -> Array:
+    count = len(strips.records)
+    grid = even_strip_grid(strips.records, segments=np.full((count, 2), (LINE, 2)))
+    return grid.points(resting_points(strips)).reshape(count, LINE + 1, 3, 3).mean(axis=2)
 
 
 def _bend(points: Array) -> Array:
@@ -189,7 +200,10 @@ def _plan(detail: _Detail, budget: int, number: int, params: LevelParams) -> _Pl
     segments = _shared_out(records, importance=inherited, bend=detail.bend[found.kept], polygons=polygons)
     share = np.minimum(inherited / np.maximum(detail.importance[found.kept], 1e-12), params.widest)
     names = tuple(detail.strips.names[index] for index in found.kept)
-    return _Plan(Level(names=names, segments=segments, widening=np.ones(len(names))), share)
+    rows = tuple(
+        bent_rows(detail.lines[index], int(along)) for index, along in zip(found.kept, segments[:, 0], strict=True)
+    )
+    return _Plan(Level(names, segments, np.ones(len(names)), rows), share)
 
 
 def _covering(

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from tress.methods.strips.level_likeness import level_points, spacing_for, views_of
+from tress.methods.strips.level_likeness import frame_about, level_points, seen_in, spacing_for
 from tress.model.atlas import Atlas
 from tress.model.document import Document
 from tress.model.level import Level
@@ -36,13 +36,14 @@ def widened(
     """
     spacing = spacing_for(px_per_m)
     reference = level_points(document, finest[0], atlases=finest[1], spacing_m=spacing, threshold=threshold)
+    frame = frame_about(reference, px_per_m=px_per_m, views=VIEWS)
+    wanted = _area(seen_in(frame, reference))
     low, high, found = 0.0, MOST, level
     for _ in range(STEPS):
         middle = 0.5 * (low + high)
         found = replace(level, widening=np.minimum(share**middle, share.max()))
         points = level_points(document, found, atlases=atlases, spacing_m=spacing, threshold=threshold)
-        mine, wanted = views_of([points, reference], px_per_m=px_per_m, views=VIEWS)
-        low, high = (middle, high) if _area(mine) < _area(wanted) else (low, middle)
+        low, high = (middle, high) if _area(seen_in(frame, points)) < wanted else (low, middle)
     return found
 
 
