@@ -32,12 +32,22 @@ LIMIT_SECS = 90
 
 @dataclass(frozen=True)
 class Shown:
-    """Names of the meshes in the scene, clips as (name, seconds), pictures (H, W, 3) uint8, and complaints."""
+    """Names of the meshes in the scene, clips as (name, seconds), pictures (H, W, 3) uint8, the affine camera (3, 4)
+    that took them, to pixels, and complaints.
+
+    The background is blue, the head green, both without light.
+    """
 
     meshes: list[str]
     clips: list[tuple[str, float]]
     pictures: list[np.ndarray]
+    xy_from_world: np.ndarray
     errors: list[str]
+
+    def hair(self, number):
+        """(H, W) float32 in [0, 1]: how much of each pixel of a picture is hair, neither blue nor green."""
+        picture = self.pictures[number].astype(np.float32) / 255
+        return 1 - np.clip(picture[..., 1] + picture[..., 2] - 2 * picture[..., 0], 0, 1)
 
 
 def shown_by_three(path, tmp_path):
@@ -60,12 +70,22 @@ def shown_by_three(path, tmp_path):
         process.wait(timeout=20)
         server.shutdown()
         server.server_close()
+    pictures = [_pixels(url) for url in found.get("pictures", [])]
     return Shown(
         meshes=found.get("meshes", []),
         clips=[(clip["name"], clip["seconds"]) for clip in found.get("clips", [])],
-        pictures=[_pixels(url) for url in found.get("pictures", [])],
+        pictures=pictures,
+        xy_from_world=_xy_from_world(found["clipFromWorld"], pictures[0].shape) if pictures else np.zeros((3, 4)),
         errors=found["errors"],
     )
+
+
+def _xy_from_world(clip_from_world, shape):
+    clip = np.array(clip_from_world).reshape(4, 4)
+    height, width = shape[:2]
+    across = (clip[0] + clip[3]) * width / 2
+    down = (clip[3] - clip[1]) * height / 2
+    return np.stack([across, down, clip[3]])
 
 
 def _pixels(url):
