@@ -18,6 +18,7 @@ from scipy.spatial import KDTree
 from tress.base.report import Report
 from tress.methods.portrait.box import Box
 from tress.methods.portrait.hanging import hanging_edge
+from tress.methods.portrait.sweep import swept
 
 SCALP_END = 0.02
 
@@ -64,6 +65,49 @@ def test_short_hair_thins_out_towards_the_nape(short):
     assert np.percentile(above[behind[:, 1] < SCALP_END + 0.01], 95) < 0.6 * np.percentile(
         above[behind[:, 1] > SCALP_END + 0.04], 95
     )
+
+
+def test_short_hair_is_the_shorter_the_thinner_it_lies(short):
+    steps = np.linalg.norm(np.diff(short.points, axis=0), axis=1)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    length = (along[short.offsets[1:] - 1] - along[short.offsets[:-1]])[~short.visible]
+    root = short.points[short.offsets[:-1]][~short.visible]
+    low, high = ((root[:, 2] < -0.04) & where for where in (root[:, 1] < SCALP_END + 0.012, root[:, 1] > 0.06))
+    assert np.percentile(length[low], 90) < 0.03
+    assert np.median(length[low]) < 0.8 * np.median(length[high])
+
+
+def test_the_crown_turns_down_behind_its_top(short):
+    behind = short.points[~np.repeat(short.visible, np.diff(short.offsets)) & (np.abs(short.points[:, 0]) < 0.03)]
+    highest = [behind[np.abs(behind[:, 2] - z) < 0.005, 1].max() for z in (-0.01, -0.04, -0.07)]
+    assert highest[0] - highest[1] > 0.003
+    assert highest[1] - highest[2] > 0.010
+
+
+def test_short_hair_beside_the_face_is_swept_back():
+    hair = small_volume()
+    wish = swept(
+        small_depths().envelope.head.skin,
+        hair.inside,
+        np.ones(hair.box.columns, np.bool_),
+        backward=np.array([0.0, 0.0, -1.0]),
+        box=hair.box,
+    )
+    place = hair.box.centres(hair.inside)
+    beside = (place[:, 2] > 0.02) & (np.abs(place[:, 0]) > 0.04) & (place[:, 1] < 0.055)
+    assert beside.sum() > 20
+    assert (wish[beside, 2] <= 0).all()
+    assert np.median(wish[beside, 2]) < -0.3
+    far_behind = place[:, 2] < -0.05
+    np.testing.assert_allclose(wish[far_behind], np.tile([0.0, -1.0, 0.0], (far_behind.sum(), 1)), atol=1e-9)
+
+
+def test_hair_that_hangs_falls_straight():
+    hair = small_volume()
+    skin = small_depths().envelope.head.skin
+    none = np.zeros(hair.box.columns, np.bool_)
+    wish = swept(skin, hair.inside, none, backward=np.array([0.0, 0.0, -1.0]), box=hair.box)
+    np.testing.assert_array_equal(wish, np.tile([0.0, -1.0, 0.0], (len(wish), 1)))
 
 
 def test_long_hair_hangs_as_low_behind_as_at_the_sides(long):

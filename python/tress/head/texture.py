@@ -34,7 +34,9 @@ ENOUGH = 0.6
 GREATEST_GAIN = 2.0
 """Between the brightness of one side of the head and of the other."""
 SCALP_TINT = 0.4
-"""How much of the hair's colour the skin below it takes."""
+"""How much of the hair's colour the skin of the scalp takes."""
+ROOTS_TINT = 0.8
+"""How much of it the skin takes where roots stand close."""
 DEFAULT_SKIN = np.array([0.72, 0.55, 0.47], np.float32)
 """sRGB of the skin where the photograph shows none."""
 MOUTH_COLOR = np.array([0.25, 0.10, 0.10], np.float32)
@@ -47,6 +49,7 @@ def head_texture(
     fitted: FittedHead,
     skin: NDArray[np.floating] | None = None,
     scalp_color: NDArray[np.floating] | None = None,
+    scalp_cover: NDArray[np.floating] | None = None,
     size: int = 1024,
     head: StatisticalHead | None = None,
 ) -> NDArray[np.uint8]:
@@ -54,7 +57,8 @@ def head_texture(
     sRGB.
 
     `skin` (H, W) in [0, 1] says where the photograph shows bare skin, so that no hair is painted on the head; without
-    it the colour decides. `scalp_color` (3,) sRGB in [0, 1] tints the scalp, as hair roots do. About 0.2 s.
+    it the colour decides. `scalp_color` (3,) sRGB in [0, 1] tints the scalp, as hair roots do, where `scalp_cover` (V,)
+    in [0, 1] says how closely they stand; without it all of the scalp, less. About 0.2 s.
     """
     head = head or load_statistical_head()
     layout = _layout(head, size)
@@ -69,7 +73,7 @@ def head_texture(
     place = np.column_stack([xy, seen, face_places(head).any_color(likely, seen=seen)])
     own = _photographed(image, skin_at, layout.at(place))
     other = _photographed(image, skin_at, layout.at(place[head.mirror]), before=own)
-    sheet = layout.at(_tinted(field, head, scalp_color))
+    sheet = layout.at(_tinted(field, head, scalp_color, scalp_cover))
     _paint(sheet, own, other, gain=layout.at(gain)[other.texel])
     return _bytes(sheet)[layout.nearest]
 
@@ -133,13 +137,17 @@ def _field(
 
 
 def _tinted(
-    field: NDArray[np.float32], head: StatisticalHead, scalp_color: NDArray[np.floating] | None
+    field: NDArray[np.float32],
+    head: StatisticalHead,
+    scalp_color: NDArray[np.floating] | None,
+    scalp_cover: NDArray[np.floating] | None,
 ) -> NDArray[np.float32]:
     """The smooth colour (V, 3) with the mouth's inside and the scalp in theirs."""
     tinted = _mixed(field, MOUTH_COLOR, head.masks["inside"] * (1 - head.masks["eyes"]))
     if scalp_color is None:
         return tinted
-    return _mixed(tinted, np.asarray(scalp_color, np.float32), np.float32(SCALP_TINT) * head.masks["scalp"])
+    amount = SCALP_TINT * head.masks["scalp"] if scalp_cover is None else ROOTS_TINT * np.asarray(scalp_cover)
+    return _mixed(tinted, np.asarray(scalp_color, np.float32), amount.astype(np.float32))
 
 
 def _mixed(field: NDArray[np.float32], color: NDArray[np.float32], amount: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -4,6 +4,7 @@ import hashlib
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import KDTree
 
 from tress.base.color import linear_to_srgb
 from tress.head.fit import FittedHead
@@ -27,6 +28,11 @@ HIDDEN_RADIUS_M = 1e-4
 """Half the width of a strand that stands for the two or three hairs of 0.08 mm around it."""
 VISIBLE_RADIUS_PX = 0.55
 """Half the width of a strand on the photo's surface: neighbours, a pixel apart, close up and leave no gap."""
+
+CLOSE_ROOTS = 12
+"""Roots by which it is told how closely they stand."""
+ROOTS_WITHIN = 0.006
+"""Metres within which so many stand where hair is dense; none of it is left at twice as far."""
 
 
 def portrait_document(work: Work) -> Document:
@@ -110,7 +116,23 @@ def in_head(points_in_view: NDArray[np.floating], view_from_head: NDArray[np.flo
 def _texture(work: Work) -> NDArray[np.uint8]:
     """The head's texture: skin where the photo shows it, tinted by the hair's roots on the scalp."""
     skin = (work["layers"].label == FACE) * (1 - work["matte"].alpha)
-    return head_texture(work.pixels, fitted=work["head"].fitted, skin=skin, scalp_color=_root_color(work["strands"]))
+    fitted, grown = work["head"].fitted, work["strands"]
+    return head_texture(
+        work.pixels,
+        fitted=fitted,
+        skin=skin,
+        scalp_color=_root_color(grown),
+        scalp_cover=_root_cover(grown, fitted.positions_in_view) * (1 - fitted.masks["face"]),
+    )
+
+
+def _root_cover(grown: GrownHair, positions: NDArray[np.floating]) -> NDArray[np.float32]:
+    """(V,) in [0, 1]: how closely roots stand around each of the head's `positions` (V, 3)."""
+    roots = grown.points[grown.offsets[:-1]][grown.rooted]
+    if len(roots) == 0:
+        return np.zeros(len(positions), np.float32)
+    reach = KDTree(roots).query(positions, k=min(CLOSE_ROOTS, len(roots)))[0].reshape(len(positions), -1)[:, -1]
+    return np.clip(2 - reach / ROOTS_WITHIN, 0, 1).astype(np.float32)
 
 
 def _root_color(grown: GrownHair) -> NDArray[np.float32] | None:

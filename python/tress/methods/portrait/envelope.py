@@ -34,6 +34,14 @@ LEAST = 0.007
 """Metres of hair at least, where it is not seen."""
 RESTING = 0.008
 """Metres between the skin and the surface of hair that lies on it."""
+CROWN_RADIUS = 0.13
+"""Metres: radius with which hair turns down behind its highest place."""
+CROWN = 0.012
+"""Metres below its top from which the front of the hair leaves the roundness of the crown."""
+LEAVES = 4.0
+"""Metres forwards for one downwards with which it does."""
+OUTLINE_BLUR = 2.0
+"""Columns over which the slope of the outline is taken."""
 
 
 class Head(Protocol):
@@ -74,7 +82,8 @@ class SolidHead:
 class Envelope:
     """Per column (R, C): `hair` and `extended` (hair, or hidden hair behind head and body) bool; `front`, `mid`,
     `back` and `thickness` metres. `outline`: hair columns at the background; `bare`: those that show face or body.
-    Per voxel of the head's skin, `on_skin` (N,) metres of hair; per column (C,), `edge`: y where hidden hair ends.
+    `dome`: metres behind `mid` that the roundness of the crown leaves to hair. Per voxel of the head's skin,
+    `on_skin` (N,) metres of hair; per column (C,), `edge`: y where hidden hair ends.
     """
 
     box: Box
@@ -87,6 +96,7 @@ class Envelope:
     back: Array
     thickness: Array
     bare: Array
+    dome: Array
     on_skin: Array
     edge: Array
 
@@ -151,7 +161,9 @@ def envelope(hair: Array, solid: Array, *, head: SolidHead, box: Box, xy_from_vi
     thickness = _harmonic(np.where(inner, at_hairline, gap + GRAZE), hair_here, known)
     shell = _surface(reach, np.maximum(thickness, gap + GRAZE / 2), box, from_front=True)
     nearest = np.minimum(box.z[reach.argmin(axis=0)], 0.0)
-    front = _smooth(_with_curtain(shell, nearest, head, inner, hair_here, known, box), hair_here)
+    dome, ahead = _dome(hair_here | head.seen, nearest, box)
+    hung = _with_curtain(np.minimum(shell, ahead), nearest, head, inner, hair_here, known, box)
+    front = _smooth(hung, hair_here)
     front = np.fmax(front, head.front + 0.4 * RESTING)
     edge = hanging_edge(hair_here, nape=head.nape, middle=_middle(head, box), box=box)
     extended = _extended(hair_here, hidden, head, edge, box)
@@ -161,8 +173,25 @@ def envelope(hair: Array, solid: Array, *, head: SolidHead, box: Box, xy_from_vi
     on_skin = scalp_thickness(
         head.skin, front=head.front, hair=hair_here, bare=bare, outline=outline, nearest=nearest, gap=gap, box=box
     )
-    back = np.minimum(back, mid)
-    return Envelope(box, head, hair_here, extended, outline, front, mid, back, behind, bare, on_skin, edge)
+    back = np.minimum(np.maximum(back, mid - dome), mid)
+    return Envelope(box, head, hair_here, extended, outline, front, mid, back, behind, bare, dome, on_skin, edge)
+
+
+def _dome(shown: Array, nearest: Array, box: Box) -> tuple[Array, Array]:
+    """(R, C) metres: half the depth of a round crown at every height below the outline's top in its column, and the
+    foremost depth that it leaves to hair close below that top; `nearest` (R, C): depth where the outline is touched.
+
+    Where a surface of depth radius `CROWN_RADIUS` touches the outline it has turned away by √(2 radius × drop); the
+    less, the steeper the outline is there, since the sides of a head are flat.
+    """
+    first = shown.argmax(axis=0)
+    top = np.where(shown.any(axis=0), box.y[first], box.y[-1])
+    top = np.maximum(top, gaussian_filter(top, OUTLINE_BLUR, mode="nearest"))
+    slope = np.gradient(top, box.size)
+    drop = np.maximum(top - box.y[:, None] + 0.5 * box.size, 0.0)
+    half = np.sqrt(2 * CROWN_RADIUS * drop) * (1 + slope * slope)
+    touched = np.take_along_axis(nearest, first[None], axis=0)
+    return half, touched + half + np.maximum(drop - CROWN, 0.0) * LEAVES
 
 
 def _middle(head: SolidHead, box: Box) -> float:

@@ -28,6 +28,8 @@ AT_BACK = 2.0
 """Voxels that the back of the hair is thick."""
 BACK_DENSITY = 4.0
 """Hidden strands that start there for one within."""
+UNEVEN = 0.35
+"""Share by which short hair is shorter than its neighbours at most."""
 MOST_CUT = 0.35
 """Most of a hanging strand that is cut off so that tips differ."""
 
@@ -114,21 +116,23 @@ def _hidden(
 ) -> fields.Traced:
     """Strands of the body of hair behind those `seen`, with tips of different lengths."""
     rest = params.count - (len(seen.offsets) - 1)
-    longest = min(hair.length, params.longest)
+    typical = float(np.median(hair.lengths)) if len(hair.lengths) else params.longest
+    step = min(params.hidden_step, typical / 6)
     found = fields.trace(
-        _hidden_seeds(hair, 3 * rest, longest, params, random),
+        _hidden_seeds(hair, 3 * rest, params, random),
         field=field,
         sheet=sheet,
-        settings=_settings(params, min(params.hidden_step, longest / 6), 0, rest),
+        settings=_settings(params, step, 0, rest),
         density=seen.density,
     )
-    return _ragged(found, hair.nape, params, random)
+    return _ragged(found, hair.nape, step, params, random)
 
 
-def _ragged(found: fields.Traced, nape: float, params: GrowParams, random: np.random.Generator) -> fields.Traced:
+def _ragged(
+    found: fields.Traced, nape: float, step: float, params: GrowParams, random: np.random.Generator
+) -> fields.Traced:
     """The strands, those that hang to the nape or lower cut short at random: most a little, few by much."""
     count = np.diff(found.offsets)
-    step = params.hidden_step
     hangs = found.points[found.offsets[1:] - 1, 1] < nape + params.ragged
     cut = np.minimum(random.exponential(params.ragged, len(count)), MOST_CUT * step * count) / step
     kept = np.where(hangs, np.maximum(count - np.rint(cut).astype(np.int64), np.minimum(count, 3)), count)
@@ -163,12 +167,10 @@ def _visible_seeds(depth: Array, xy_from_view: Array, params: GrowParams, random
     return np.stack([x, y, z, ways, ways], axis=1)
 
 
-def _hidden_seeds(
-    hair: HairVolume, count: int, longest: float, params: GrowParams, random: np.random.Generator
-) -> Array:
+def _hidden_seeds(hair: HairVolume, count: int, params: GrowParams, random: np.random.Generator) -> Array:
     """Random points of the volume behind the visible surface, denser in its front half and at its back.
 
-    Strands from them are `longest` metres at most; short ones start anywhere along their length.
+    Strands from them are as long as hair is there; short ones start anywhere along their length.
     """
     z = hair.box.z[:, None, None]
     inside = hair.inside & (z < np.where(np.isfinite(hair.front), hair.front - params.sheet_depth, np.inf))
@@ -180,8 +182,11 @@ def _hidden_seeds(
     if len(centres) == 0:
         return np.zeros((0, 5))
     chosen = np.searchsorted(chance, random.uniform(0, chance[-1], count), side="right")
-    points = centres[np.minimum(chosen, len(centres) - 1)] + hair.voxel * random.uniform(-0.5, 0.5, (count, 3))
-    share = random.uniform(0, 1, count) if longest < params.longest else np.ones(count)
-    ahead = longest * np.maximum(share, 0.0)
-    back = longest - ahead if longest < params.longest else ahead
+    chosen = np.minimum(chosen, len(centres) - 1)
+    points = centres[chosen] + hair.voxel * random.uniform(-0.5, 0.5, (count, 3))
+    length = np.minimum(hair.lengths[inside[hair.inside]], params.longest)[chosen]
+    length = length * random.uniform(1 - UNEVEN, 1, count)
+    ends = length >= (1 - UNEVEN) * params.longest  # where hair hangs, the volume ends it
+    ahead = np.where(ends, params.longest, length * random.uniform(0, 1, count))
+    back = np.where(ends, params.longest, length - ahead)
     return np.concatenate([points, ahead[:, None], back[:, None]], axis=1)

@@ -3,7 +3,8 @@
 The skin of the head is a shell of voxels. Hair grows where the head's scalp mask says, except where the photograph
 shows skin (a high forehead, a bald patch, shaved sides), and a little beyond what it shows of that. Its thickness is
 known where the outline of the hair passes the skull, spreads harmonically over the shell, and thins out towards the
-hairline of the hidden side, which is the scalp mask's own.
+hairline of the hidden side, which is the scalp mask's own. Where no outline is near, hair is as thick as that seen at
+the same height: a cut that is shorter at the ears is so at the nape.
 
 Limits: what is bare on the hidden side only is not known.
 """
@@ -31,8 +32,10 @@ TAPER = 0.03
 """Metres from the hidden hairline over which hair gets its full thickness."""
 LEAST = 0.004
 """Metres of the thinnest layer."""
-FAINT = 1e-3
-"""Weight of the mean thickness where none is seen: reaches some 30 voxels."""
+ALIKE = 0.02
+"""Weight with which hidden hair is as thick as what is seen at its height: what is seen reaches some 7 voxels."""
+HEIGHTS = 12
+"""Heights at which the thickness is told apart."""
 
 
 @dataclass(frozen=True)
@@ -96,9 +99,19 @@ def _spread_thickness(skin: Skin, outline: Array, nearest: Array, gap: Array, bo
     on_scalp = skin.bearing[at] > BEARING
     at, seen = at[on_scalp], gap[outline][on_scalp]
     total, count = (np.bincount(at, weights=w, minlength=len(skin.cells)) for w in (seen, np.ones(len(at))))
-    mean = float(np.median(seen)) if len(seen) else LEAST
-    value = np.where(count > 0, total / np.maximum(count, 1), mean)
-    return _on_shell(skin, value, np.where(count > 0, 1.0, FAINT), box)
+    alike = _at_height(skin.centres[:, 1], skin.centres[at, 1], seen)
+    value = np.where(count > 0, total / np.maximum(count, 1), alike)
+    return _on_shell(skin, value, np.where(count > 0, 1.0, ALIKE), box)
+
+
+def _at_height(heights: Array, seen_at: Array, seen: Array) -> Array:
+    """(N,) metres: median of the thickness `seen` (K,) near the same height, above and below that of the last."""
+    if len(seen) == 0:
+        return np.full(len(heights), LEAST)
+    order = np.argsort(seen_at, kind="stable")
+    parts = [part for part in np.array_split(order, HEIGHTS) if len(part)]
+    middles = [float(np.median(seen_at[part])) for part in parts]
+    return np.interp(heights, middles, [float(np.median(seen[part])) for part in parts])
 
 
 def _on_shell(skin: Skin, values: Array, weights: Array, box: Box) -> Array:

@@ -23,6 +23,8 @@ from tress.methods.portrait.depth import StrandDepths, Traced
 from tress.methods.portrait.envelope import Envelope, Head, SolidHead
 from tress.methods.portrait.flow import FlowParams, HairFlow, hair_flow
 from tress.methods.portrait.resample_picture import columns_from_pixels, pixels_from_columns, spread
+from tress.methods.portrait.scalp_layer import BEARING
+from tress.methods.portrait.sweep import swept
 from tress.methods.portrait.waves import LOCK, waves, waviness
 
 Array = np.ndarray[Any, Any]
@@ -42,14 +44,22 @@ NECK = 0.05
 """Metres below the nape over which the neck is trusted."""
 
 
+THIN = 0.004
+"""Metres of hair on the skin that the roundness of the crown leaves."""
+OVER_SKIN = 0.015
+"""Metres over bare skin that stay free of hair that does not hang there."""
+SEEN = 0.010
+"""Metres of hair behind what is seen that may lie over bare skin."""
 BESIDE_HEAD = 2
 """Columns beside the head into which hair on its skin may reach."""
 HANGING = 0.01
 """Metres below the nape from which hair counts as long."""
 TRACED_SHARE = 1.5
 """Length of short hair for the length of the strands that can be followed in the photo, nine in ten of them shorter."""
-SHORTEST = 0.012
+SHORTEST = 0.018
 """Metres that short hair is long at least."""
+THICK_TO_LONG = 5.0
+"""Length of short hair for the thickness of its layer."""
 
 WAVES_FROM = 0.012
 """Metres behind the visible surface from which hidden hair has waves of its own."""
@@ -80,8 +90,8 @@ class HairVolume:
     Per column (R, C) float32 metres, NaN beside the hair: `front`, `mid`, `back`. Per voxel (L, R, C): `inside` bool;
     `direction` (…, 3) float32 unit, root to tip, zero outside; `head_distance` float32 metres, negative in the head.
     `origin` (3,) and `voxel` metres as in `Box`. Per pixel: `sheet` (H, W) float32, depth of the visible surface,
-    NaN beside the hair, and `flow`, the direction in the picture. `length`: of the hidden hair, metres; `nape`: y of
-    the scalp's lower end.
+    NaN beside the hair, and `flow`, the direction in the picture. `lengths` (N,) float32: how long hidden hair is at
+    the N voxels `inside`, metres; `nape`: y of the scalp's lower end.
     """
 
     origin: Array
@@ -94,7 +104,7 @@ class HairVolume:
     head_distance: Array
     sheet: Array
     flow: HairFlow
-    length: float
+    lengths: Array
     nape: float
 
     @property
@@ -124,11 +134,13 @@ def volume(
     inside, depth_m = _filled(surface, front, params)
     layer, normal = _layers(depth_m, solid.distance, inside)
     flat, trust = _column_directions(flow, surface, matrix)
-    vectors, weights = _data(inside, front, flat, trust, normal, surface, params)
+    wish = swept(surface.head.skin, inside, ~_hangs_at(surface), backward=-head.view_from_head[:3, 2], box=box)
+    vectors, weights = _data(inside, front, flat, trust, normal, wish, surface, params)
     found = fields.diffuse_axes(vectors, mask=inside, weights=weights)
     out = np.zeros((*box.shape, 3), np.float32)
-    length = _length(traced, surface, matrix[0, 0], params)
-    rise = np.clip(float(np.median(surface.on_skin[surface.on_skin > 0])) / length, params.rise, params.steepest)
+    thickness = surface.on_skin[solid.skin.nearest[inside]]
+    lengths = _lengths(thickness, inside, surface, _traced_length(traced, matrix[0, 0]), params)
+    rise = np.clip(thickness / lengths, params.rise, params.steepest)
     axes = _waved(found.axes, inside, front, surface, waviness(flow, px_per_metre=matrix[0, 0]))
     out[inside] = _laid(axes, layer, normal, solid.distance[inside], rise, params)
     report.number("voxels", int(inside.sum()))
@@ -138,21 +150,39 @@ def volume(
     sheet = pixels_from_columns(spread(front, surface.hair), box, matrix, shape=alpha.shape)
     sheet[~hair] = np.nan
     return HairVolume(
-        box.origin, box.size, front_map, mid, back, inside, out, solid.distance, sheet, flow, length, solid.nape
+        box.origin,
+        box.size,
+        front_map,
+        mid,
+        back,
+        inside,
+        out,
+        solid.distance,
+        sheet,
+        flow,
+        lengths.astype(np.float32),
+        solid.nape,
     )
 
 
-def _length(traced: Traced, surface: Envelope, px_per_metre: float, params: VolumeParams) -> float:
-    """Metres: how long hidden hair is. Hair that hangs below the nape ends at its edge; shorter hair is as long as
-    that which is seen.
+def _lengths(thickness: Array, inside: Array, surface: Envelope, seen: float, params: VolumeParams) -> Array:
+    """(N,) metres: how long hidden hair is at the voxels `inside`. Where hair hangs below the nape it ends at its edge;
+    shorter hair is no longer than what is `seen`, metres, and the shorter the thinner it lies.
     """
-    if (surface.edge < surface.head.nape - HANGING).any() or len(traced.offsets) < 2:
-        return params.longest
+    column = np.nonzero(inside)[2]
+    short = np.clip(THICK_TO_LONG * thickness, SHORTEST, max(seen, SHORTEST))
+    return np.minimum(np.where(_hangs_at(surface)[column], params.longest, short), params.longest)
+
+
+def _traced_length(traced: Traced, px_per_metre: float) -> float:
+    """Metres: how long the strands are that can be followed in the photo; infinite where there are none."""
+    if len(traced.offsets) < 2:
+        return np.inf
     steps = np.linalg.norm(np.diff(np.asarray(traced.points, np.float64), axis=0), axis=1)
     along = np.concatenate([[0.0], np.cumsum(steps)])
     ends = np.asarray(traced.offsets)
     lengths = along[ends[1:] - 1] - along[ends[:-1]]
-    return float(np.clip(TRACED_SHARE * np.percentile(lengths, 90) / px_per_metre, SHORTEST, params.longest))
+    return float(TRACED_SHARE * np.percentile(lengths, 90) / px_per_metre)
 
 
 def _crown(head: Head) -> Array:
@@ -198,12 +228,28 @@ def _filled(surface: Envelope, front: Array, params: VolumeParams) -> tuple[Arra
     back = np.where(hangs, np.minimum(surface.back, _over_bust(head, box) - OVER_BUST), surface.back)
     long = surface.extended & hangs
     between = (z >= back) & ((shown & ((z >= surface.mid) | ~head.seen)) | (long & behind & (shown | ~surface.hair)))
-    layer = _on_scalp(surface) & np.where(surface.bare, behind, shown | ~surface.hair)
+    round_crown = (z >= surface.mid - surface.dome) | ~surface.extended | (head.distance <= THIN)
+    layer = _on_scalp(surface) & np.where(surface.bare, behind, shown | ~surface.hair) & round_crown
+    between &= _growable(surface, front)
     body = between | layer | (head.distance <= 0)
     depth_m = fields.distance(~body) * np.float32(box.size)
     reach = np.clip(surface.thickness, params.thinnest, params.thickest)
     outside = head.distance > 0.3 * box.size
     return layer | (outside & between & (depth_m <= reach + box.size)), depth_m
+
+
+def _growable(surface: Envelope, front: Array) -> Array:
+    """(L, R, C) bool: not close over skin that bears no hair, where none hangs, but for hair that is seen."""
+    head, box = surface.head, surface.box
+    bare = (head.skin.bearing <= BEARING)[head.skin.nearest] & (head.distance < OVER_SKIN)
+    z = box.z[:, None, None]
+    seen = surface.hair & ((z > front - SEEN) | (z >= head.front))
+    return ~bare | seen | _hangs_at(surface)
+
+
+def _hangs_at(surface: Envelope) -> Array:
+    """(C,) bool: columns where hidden hair hangs below the nape."""
+    return surface.edge < surface.head.nape - HANGING
 
 
 def _on_scalp(surface: Envelope) -> Array:
@@ -225,8 +271,7 @@ def _on_scalp(surface: Envelope) -> Array:
 
 def _hangs(surface: Envelope) -> Array:
     """(R, C) bool: where hidden hair may be that does not lie on the scalp, since it is long and falls."""
-    low = surface.edge < surface.head.nape - HANGING
-    return low & (surface.box.y[:, None] >= surface.edge)
+    return _hangs_at(surface) & (surface.box.y[:, None] >= surface.edge)
 
 
 def _behind_head(head: SolidHead, box: Box) -> Array:
@@ -293,12 +338,18 @@ def _column_directions(flow: HairFlow, surface: Envelope, xy_from_view: Array) -
 
 
 def _data(
-    inside: Array, front: Array, flat: Array, trust: Array, normal: Array, surface: Envelope, params: VolumeParams
+    inside: Array,
+    front: Array,
+    flat: Array,
+    trust: Array,
+    normal: Array,
+    wish: Array,
+    surface: Envelope,
+    params: VolumeParams,
 ) -> tuple[Array, Array]:
-    """Directions (N, 3) and weights (N,) of what is seen and of falling, at the N voxels `inside`."""
+    """Directions (N, 3) and weights (N,) of what is seen and of the `wish` (N, 3), at the N voxels `inside`."""
     box = surface.box
-    gravity = np.array([0.0, -1.0, 0.0])
-    falling = gravity - (normal @ gravity)[:, None] * normal
+    falling = wish - (normal * wish).sum(axis=1)[:, None] * normal
     length = np.linalg.norm(falling, axis=-1)
     weights = params.gravity_weight * length
     vectors = falling / np.maximum(length, 1e-9)[:, None]
@@ -323,7 +374,7 @@ def _waved(axes: Array, inside: Array, front: Array, surface: Envelope, amount: 
     return axes + share[:, None] * waves(places, shape=box.shape, lock=LOCK / box.size, seed=0)
 
 
-def _laid(axes: Array, layer: Array, normal: Array, head_distance: Array, rise: float, params: VolumeParams) -> Array:
+def _laid(axes: Array, layer: Array, normal: Array, head_distance: Array, rise: Array, params: VolumeParams) -> Array:
     """Axes (N, 3) turned into the layers, rising where the scalp is near; unit."""
     along = (axes * normal).sum(axis=-1, keepdims=True)
     laid = axes - params.layer_share * along * normal
