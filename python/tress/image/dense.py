@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tress.base.errors import InputError
+from tress.base.parallel import each, in_bands
 from tress.base.params import Params, param
 from tress.image.orient import OrientParams, natural_scale, orientation_map
 
@@ -68,13 +69,12 @@ def dense_orientation(
     box = _box(mask, margin=int(4 * _WINDOWS_PX[-2] * scale))
     inside = mask[box]
     bright = np.asarray(image[box], np.float32)
-    witnesses = params.gabor_weight * _evened(
-        _gabor(bright, inside), inside, params.contrast_px * scale, loudest=np.inf
-    )
-    for width in _DERIVATIVES_PX:
-        tensor = _evened(
-            _gradients(bright, inside, width * scale), inside, params.contrast_px * scale, loudest=_LOUDEST
-        )
+    around = params.contrast_px * scale
+    witnesses = params.gabor_weight * _evened(_gabor(bright, inside), inside, around, loudest=np.inf)
+    for tensor in each(
+        lambda width: _evened(_gradients(bright, inside, width * scale), inside, around, loudest=_LOUDEST),
+        _DERIVATIVES_PX,
+    ):
         witnesses += params.gradient_weight / len(_DERIVATIVES_PX) * tensor
     doubled, agreement = _narrowest(witnesses, scale, params.significance)
     angle[box] = np.where(inside, np.arctan2(doubled[..., 1], doubled[..., 0]) / 2 % np.pi, np.nan)
@@ -114,19 +114,24 @@ def _evened(witness: Array, inside: Array, width_px: float, *, loudest: float) -
 
 def _narrowest(witnesses: Array, scale: float, significance: float) -> tuple[Array, Array]:
     """Doubled angle (H, W, 2) and agreement (H, W) from the narrowest trusted window, blended into the next."""
-    doubled = np.zeros_like(witnesses[..., :2])
-    agreement = np.zeros_like(witnesses[..., 0])
-    left = np.ones_like(agreement)
-    for number, width in enumerate(_WINDOWS_PX, start=1):
-        mean = _blurred(witnesses, width * scale)
-        length = np.hypot(mean[..., 0], mean[..., 1])
-        agreed = length / np.maximum(mean[..., 2], 1e-9)
-        beyond_chance = agreed * width / _DERIVATIVES_PX[1]
-        trusted = np.clip(beyond_chance / max(significance, 1e-9) - 0.5, 0, 1)
-        share = left if number == len(_WINDOWS_PX) else left * trusted
-        doubled += (share / np.maximum(length, 1e-12))[..., None] * mean[..., :2]
-        agreement += share * agreed
-        left = left - share
+    means = each(lambda width: _blurred(witnesses, width * scale), _WINDOWS_PX)
+
+    def blended(*means: Array) -> tuple[Array, Array]:
+        doubled = np.zeros_like(means[0][..., :2])
+        agreement = np.zeros_like(means[0][..., 0])
+        left = np.ones_like(agreement)
+        for number, (width, mean) in enumerate(zip(_WINDOWS_PX, means, strict=True), start=1):
+            length = np.hypot(mean[..., 0], mean[..., 1])
+            agreed = length / np.maximum(mean[..., 2], 1e-9)
+            beyond_chance = agreed * width / _DERIVATIVES_PX[1]
+            trusted = np.clip(beyond_chance / max(significance, 1e-9) - 0.5, 0, 1)
+            share = left if number == len(_WINDOWS_PX) else left * trusted
+            doubled += (share / np.maximum(length, 1e-12))[..., None] * mean[..., :2]
+            agreement += share * agreed
+            left = left - share
+        return doubled, agreement
+
+    doubled, agreement = in_bands(blended, *means)
     return doubled, agreement
 
 

@@ -4,6 +4,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tress.base.parallel import each
+
 
 def guided_filter(
     maps: NDArray[np.float32], *, guide: NDArray[np.uint8], radius: int, epsilon: float = 1e-4
@@ -17,7 +19,7 @@ def guided_filter(
     color = np.ascontiguousarray((guide / 255).astype(np.float32).transpose(2, 0, 1))
     mean = _box_all(color, radius)
     inverse = _inverse_covariance(color, mean, radius, epsilon)
-    smoothed = [_filtered(maps[..., c], color, mean, inverse, radius) for c in range(maps.shape[2])]
+    smoothed = each(lambda c: _filtered(maps[..., c], color, mean, inverse, radius), range(maps.shape[2]))
     return np.stack(smoothed, axis=-1)
 
 

@@ -163,8 +163,12 @@ def _cut_layers(
     samples = features(patches)
     border = _border_cost(patches, params)
     prior = _with_spread_strokes(samples, prior, stroke, patches, params.stroke_weight)
-    prior = _without_bare_hair(samples, prior, stroke, patches)
-    weights = _first_weights(samples, prior, stroke, patches)
+    seeds = _Seeds.of(samples, prior, stroke, patches)
+    if (left := _hair_left(seeds, stroke)) < 1:
+        prior = prior * np.where(np.arange(LAYER_COUNT) == HAIR, left, 1.0)
+        prior /= prior.sum(axis=1, keepdims=True)
+        seeds = _Seeds.of(samples, prior, stroke, patches)
+    weights = _first_weights(samples, seeds, stroke, patches)
     label = prior.argmax(axis=1).astype(np.uint8)
     roots = weights[:, HAIR].copy()
     cost = -np.log(prior)
@@ -205,28 +209,37 @@ def _lesson(prior: NDArray[np.float64], patches: Superpixels) -> NDArray[np.floa
     return patches.area * (0.05 + 0.95 * np.exp(-distance / _NEAR)) if person.any() else patches.area.astype(np.float64)
 
 
-def _without_bare_hair(
-    samples: NDArray[np.float64], prior: NDArray[np.float64], stroke: NDArray[np.uint8], patches: Superpixels
-) -> NDArray[np.float64]:
-    """The prior, but with next to no hair in it where the places of surest hair look like the face: a bald head."""
-    seeds = _sure_places(prior, stroke, patches)
-    if (stroke == HAIR).any() or seeds[:, HAIR].sum() <= 0:
-        return prior
-    look = log_likelihood(learnt_appearance(samples, weights=seeds, strokes=stroke), samples)
-    like_face = _share(look + _ALIKE * np.eye(LAYER_COUNT)[FACE], FACE, (HAIR,))
-    bare = float(np.average(like_face, weights=seeds[:, HAIR]))
-    left = np.interp(bare, _BARE, (1.0, _LEAST_PRIOR))
-    prior = prior * np.where(np.arange(LAYER_COUNT) == HAIR, left, 1.0)
-    return prior / prior.sum(axis=1, keepdims=True)
+@dataclass(frozen=True)
+class _Seeds:
+    """`weight` (N, 4) of the patches where the prior is surest of each layer; what these are like, as a `look` (N, 4)
+    of all patches."""
+
+    weight: NDArray[np.float64]
+    look: NDArray[np.float64]
+
+    @classmethod
+    def of(
+        cls, samples: NDArray[np.float64], prior: NDArray[np.float64], stroke: NDArray[np.uint8], patches: Superpixels
+    ) -> "_Seeds":
+        weight = _sure_places(prior, stroke, patches)
+        return cls(weight, log_likelihood(learnt_appearance(samples, weights=weight, strokes=stroke), samples))
+
+
+def _hair_left(seeds: _Seeds, stroke: NDArray[np.uint8]) -> float:
+    """1; next to nothing where the places of surest hair look like the face: a bald head."""
+    if (stroke == HAIR).any() or seeds.weight[:, HAIR].sum() <= 0:
+        return 1.0
+    like_face = _share(seeds.look + _ALIKE * np.eye(LAYER_COUNT)[FACE], FACE, (HAIR,))
+    bare = float(np.average(like_face, weights=seeds.weight[:, HAIR]))
+    return float(np.interp(bare, _BARE, (1.0, _LEAST_PRIOR)))
 
 
 def _first_weights(
-    samples: NDArray[np.float64], prior: NDArray[np.float64], stroke: NDArray[np.uint8], patches: Superpixels
+    samples: NDArray[np.float64], sure: _Seeds, stroke: NDArray[np.uint8], patches: Superpixels
 ) -> NDArray[np.float64]:
-    """Seeds of the layers: the places where the prior is surest, less what looks like another layer's surer seeds."""
-    seeds = _sure_places(prior, stroke, patches)
-    look = log_likelihood(learnt_appearance(samples, weights=seeds, strokes=stroke), samples)
-    seeds[:, HAIR] *= _share(look, HAIR, (FACE, BACKGROUND))
+    """The seeds of the layers, less what looks like another layer's surer seeds."""
+    seeds = sure.weight.copy()
+    seeds[:, HAIR] *= _share(sure.look, HAIR, (FACE, BACKGROUND))
     look = log_likelihood(learnt_appearance(samples, weights=seeds, strokes=stroke), samples)
     seeds[:, BODY] *= _share(look, BODY, (FACE, BACKGROUND)) * np.maximum(1 - _likeness(samples, look[:, HAIR]), 0.02)
     return _with_strokes(seeds, stroke, patches)

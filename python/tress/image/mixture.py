@@ -35,11 +35,11 @@ def fitted_mixture(
         weights, count = np.ones(len(samples)), 1
     samples, weights = samples[weights > 0], weights[weights > 0]
     share = _first_shares(samples, weights, count)
-    mixture = _maximised(samples, share * weights[:, None], floor)
+    mixture = _maximised(samples, share * weights, floor)
     for _ in range(iterations):
         logs = _component_logs(mixture, samples)
-        share = np.exp(logs - _log_sum(logs)[:, None])
-        mixture = _maximised(samples, share * weights[:, None], floor)
+        share = np.exp(logs - _log_sum(logs))
+        mixture = _maximised(samples, share * weights, floor)
     return mixture
 
 
@@ -49,6 +49,7 @@ def log_density(mixture: Mixture, samples: NDArray[np.floating]) -> NDArray[np.f
 
 
 def _first_shares(samples: NDArray[np.float64], weights: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    """(K, N): how much of every sample belongs to each component."""
     mean = np.average(samples, axis=0, weights=weights)
     covariance = np.cov(samples.T, aweights=weights + 1e-12, ddof=0).reshape(len(mean), len(mean))
     axis = np.linalg.eigh(covariance)[1][:, -1]
@@ -57,15 +58,15 @@ def _first_shares(samples: NDArray[np.float64], weights: NDArray[np.float64], co
     order = np.argsort(along, kind="stable")
     rank = np.empty(len(samples))
     rank[order] = np.cumsum(weights[order]) / weights.sum()
-    return np.eye(count)[np.minimum((rank * count).astype(int), count - 1)]
+    return np.eye(count)[:, np.minimum((rank * count).astype(int), count - 1)]
 
 
 def _maximised(samples: NDArray[np.float64], share: NDArray[np.float64], floor: NDArray[np.float64]) -> Mixture:
-    mass = share.sum(axis=0)
-    share = share[:, mass > 1e-6 * mass.sum()]
-    mass = share.sum(axis=0)
-    mean = (share.T @ samples) / mass[:, None]
-    covariance = [_scatter(samples - mean[k], share[:, k]) / mass[k] + np.diag(floor) for k in range(len(mass))]
+    mass = share.sum(axis=1)
+    share = share[mass > 1e-6 * mass.sum()]
+    mass = share.sum(axis=1)
+    mean = (share @ samples) / mass[:, None]
+    covariance = [_scatter(samples - mean[k], share[k]) / mass[k] + np.diag(floor) for k in range(len(mass))]
     return Mixture(mass / mass.sum(), mean, np.stack(covariance))
 
 
@@ -74,14 +75,15 @@ def _scatter(away: NDArray[np.float64], share: NDArray[np.float64]) -> NDArray[n
 
 
 def _component_logs(mixture: Mixture, samples: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(K, N): logarithm of every component's part of the density."""
     whitening = np.linalg.inv(np.linalg.cholesky(mixture.covariance))
     distance_sq = [
-        np.square((samples - mean) @ white.T).sum(axis=1) for mean, white in zip(mixture.mean, whitening, strict=True)
+        np.square(white @ (samples - mean).T).sum(axis=0) for mean, white in zip(mixture.mean, whitening, strict=True)
     ]
     log_volume = np.linalg.slogdet(2 * np.pi * mixture.covariance)[1]
-    return np.log(mixture.weight) - 0.5 * (np.stack(distance_sq, axis=1) + log_volume)
+    return (np.log(mixture.weight) - 0.5 * log_volume)[:, None] - 0.5 * np.stack(distance_sq)
 
 
 def _log_sum(logs: NDArray[np.float64]) -> NDArray[np.float64]:
-    top = logs.max(axis=1)
-    return top + np.log(np.exp(logs - top[:, None]).sum(axis=1))
+    top = logs.max(axis=0)
+    return top + np.log(np.exp(logs - top).sum(axis=0))

@@ -16,6 +16,7 @@ from typing import Any, Protocol
 import numpy as np
 from scipy.ndimage import binary_dilation, gaussian_filter, maximum_filter
 
+from tress.base.parallel import together
 from tress.kernel import fields, geom
 from tress.methods.portrait.box import Box, box_around
 from tress.methods.portrait.hanging import hanging_edge
@@ -125,7 +126,11 @@ def solid_head(positions: Array, triangles: Array, scalp: Array, view_from_head:
     inside = (z >= depth.back) & (z <= depth.front)
     signed = (fields.distance(inside) - fields.distance(~inside)) * np.float32(box.size)
     close = np.abs(signed) < 1.6 * box.size
-    signed[close] = geom.signed_distances(positions, triangles=triangles, queries=box.centres(close)).distance
+    skin, near = together(
+        lambda: skin_of_head(inside, positions, scalp, box),
+        lambda: geom.signed_distances(positions, triangles=triangles, queries=box.centres(close)),
+    )
+    signed[close] = near.distance
     bearing = positions[scalp > 0.5]
     return SolidHead(
         depth.front,
@@ -133,7 +138,7 @@ def solid_head(positions: Array, triangles: Array, scalp: Array, view_from_head:
         signed,
         _hairline(bearing, view_from_head, box),
         float(bearing[:, 1].min()),
-        skin_of_head(inside, positions, scalp, box),
+        skin,
     )
 
 

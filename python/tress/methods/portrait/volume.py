@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from scipy.ndimage import binary_dilation, gaussian_filter, minimum_filter
 
+from tress.base.parallel import together
 from tress.base.params import Params, param
 from tress.base.report import Report
 from tress.kernel import fields
@@ -129,10 +130,16 @@ def volume(
     surface, matrix = depths.envelope, head.xy_from_view
     box, solid = surface.box, surface.head
     hair = alpha > params.seen_alpha
-    flow = hair_flow(brightness, hair=hair, crown_px=_crown(head), px_per_metre=matrix[0, 0], params=params.flow)
-    front = _front(depths, traced, matrix)
-    inside, depth_m = _filled(surface, front, params)
-    layer, normal = _layers(depth_m, solid.distance, inside)
+
+    def body() -> tuple[Array, Array, Array, Array]:
+        front = _front(depths, traced, matrix)
+        inside, depth_m = _filled(surface, front, params)
+        return front, inside, *_layers(depth_m, solid.distance, inside)
+
+    (front, inside, layer, normal), flow = together(
+        body,
+        lambda: hair_flow(brightness, hair=hair, crown_px=_crown(head), px_per_metre=matrix[0, 0], params=params.flow),
+    )
     flat, trust = _column_directions(flow, surface, matrix)
     wish = swept(surface.head.skin, inside, ~_hangs_at(surface), backward=-head.view_from_head[:3, 2], box=box)
     vectors, weights = _data(inside, front, flat, trust, normal, wish, surface, params)
