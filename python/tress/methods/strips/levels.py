@@ -36,6 +36,8 @@ HIDDEN_SHARE = 0.05
 """Of its whole area, what a strip counts for beside what is seen of it: textures let hair below show through."""
 STEPS = 12
 MOST_POLYGONS = 4096
+PX_OFF = 0.5
+"""How far, in pixels, polygons may lie off a strip in the mean where a level takes over; more of them are not needed."""
 LINE = 48
 
 
@@ -43,7 +45,12 @@ LINE = 48
 class LevelParams(Params):
     """How levels are made."""
 
-    least_polygons: int = param(6, low=1, high=1000, doc="Strips are merged before one has fewer polygons in the mean.")
+    least_polygons: int = param(
+        6,
+        low=1,
+        high=1000,
+        doc="Strips are merged before they have fewer in the mean; where fewer do from afar, later.",
+    )
     keep_all: bool = False
     widest: float = param(3.0, low=1.0, high=10.0, doc="No strip becomes wider than this times its width.")
     pixels: float = param(
@@ -90,9 +97,11 @@ def level_chain(
     strips = strip_set(document, names)
     seen = visible_area(document, strips)
     detail = _Detail.of(document, strips, seen)
-    plans = [_plan(detail, budget, number, params) for number, budget in enumerate(budgets)]
+    tolerances = [0.0, *(PX_OFF * each / params.px_at_1_m for each in _distances(budgets, seen, params))]
+    given = zip(budgets, tolerances, strict=True)
+    plans = [_plan(detail, budget, number, params, tolerance) for number, (budget, tolerance) in enumerate(given)]
     triangles = [plan.level.triangles for plan in plans]
-    distances = takeover_distances(triangles, area_m2=float(seen.sum()), params=params)
+    distances = _distances(triangles, seen, params)
     atlases = level_atlases(
         document,
         takeover_m=distances,
@@ -119,6 +128,10 @@ def takeover_distances(triangles: Sequence[int], *, area_m2: float, params: Leve
     area (pixels a metre / distance)² of them. Each is at least as far as the one before."""
     exact = [params.px_at_1_m * np.sqrt(area_m2 / (count * params.pixels)) for count in triangles[1:]]
     return tuple(np.maximum.accumulate(exact).tolist()) if exact else ()
+
+
+def _distances(triangles: Sequence[int], seen: Array, params: LevelParams) -> tuple[float, ...]:
+    return takeover_distances(triangles, area_m2=float(seen.sum()), params=params)
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,7 +198,7 @@ class _Plan:
     share: Array
 
 
-def _plan(detail: _Detail, budget: int, number: int, params: LevelParams) -> _Plan:
+def _plan(detail: _Detail, budget: int, number: int, params: LevelParams, tolerance_m: float) -> _Plan:
     count, polygons = len(detail.kind), budget // 2
     needed = count if params.keep_all else len(np.unique(detail.kind))
     if polygons < needed:
@@ -193,7 +206,8 @@ def _plan(detail: _Detail, budget: int, number: int, params: LevelParams) -> _Pl
             f"Level {number} has a budget of {budget} triangles for {needed} strips that must stay; "
             f"at least {2 * needed} were expected, a polygon of two triangles for each."
         )
-    wanted = count if params.keep_all else min(count, max(polygons // params.least_polygons, needed))
+    least = _least_polygons(detail, params, tolerance_m)
+    wanted = count if params.keep_all else min(count, max(int(polygons / least), needed))
     found = merged(detail.middles, importance=detail.importance, kind=detail.kind, count=wanted)
     inherited = np.bincount(found.heir, weights=detail.importance, minlength=count)[found.kept]
     records = [detail.strips.records[index] for index in found.kept]
@@ -204,6 +218,14 @@ def _plan(detail: _Detail, budget: int, number: int, params: LevelParams) -> _Pl
         bent_rows(detail.lines[index], int(along)) for index, along in zip(found.kept, segments[:, 0], strict=True)
     )
     return _Plan(Level(names, segments, np.ones(len(names)), rows), share)
+
+
+def _least_polygons(detail: _Detail, params: LevelParams, tolerance_m: float) -> float:
+    """How many polygons a strip needs in the mean, so that more strips are kept where these are short and flat."""
+    if tolerance_m <= 0:
+        return params.least_polygons
+    needed = np.ceil(np.sqrt(np.sqrt(detail.bend) / tolerance_m)).clip(1, params.least_polygons)
+    return float(np.average(needed, weights=detail.importance))
 
 
 def _covering(
