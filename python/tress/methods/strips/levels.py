@@ -37,7 +37,7 @@ HIDDEN_SHARE = 0.05
 STEPS = 12
 MOST_POLYGONS = 4096
 PX_OFF = 0.5
-"""How far, in pixels, polygons may lie off a strip in the mean where a level takes over; more of them are not needed."""
+"""How far, in pixels, polygons may lie off a strip in the mean where a level takes over; fewer are as good."""
 LINE = 48
 
 
