@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from skimage.segmentation import slic
 
+from tress.base.parallel import together
 from tress.image.color import lab_of_srgb
 
 _ITERATIONS = 4
@@ -49,6 +50,18 @@ def superpixels(image: NDArray[np.uint8], *, count: int, compactness: float) -> 
     pixels.
     """
     lab = lab_of_srgb(image)
+    (contrast, grains), label = together(
+        lambda: (_fine_contrast(lab[..., 0]), _grain(lab[..., 0])), lambda: _patches(lab, count, compactness)
+    )
+    number = int(label.max()) + 1
+    area = np.bincount(label.ravel(), minlength=number).astype(np.float32)
+    texture = np.log(mean_over(label, contrast, area) + 0.3)
+    grain = mean_over(label, grains, area)
+    edges, border = _neighbours(label, number)
+    return Superpixels(label, area, _centers(label, area), mean_over(label, lab, area), texture, grain, edges, border)
+
+
+def _patches(lab: NDArray[np.float32], count: int, compactness: float) -> NDArray[np.int32]:
     label = slic(
         lab,
         n_segments=count,
@@ -57,13 +70,8 @@ def superpixels(image: NDArray[np.uint8], *, count: int, compactness: float) -> 
         convert2lab=False,
         start_label=0,
         channel_axis=-1,
-    ).astype(np.int32)
-    number = int(label.max()) + 1
-    area = np.bincount(label.ravel(), minlength=number).astype(np.float32)
-    texture = np.log(mean_over(label, _fine_contrast(lab[..., 0]), area) + 0.3)
-    grain = mean_over(label, _grain(lab[..., 0]), area)
-    edges, border = _neighbours(label, number)
-    return Superpixels(label, area, _centers(label, area), mean_over(label, lab, area), texture, grain, edges, border)
+    )
+    return label.astype(np.int32)
 
 
 def mean_over(label: NDArray[np.int32], values: NDArray[np.float32], area: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -16,6 +16,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from tress.base.errors import InputError, NoHairError
+from tress.base.parallel import together
 from tress.base.params import Params, param
 from tress.base.report import Report
 from tress.kernel import fields
@@ -103,12 +104,15 @@ def depth(
         raise InputError(f"solid has shape {solid.shape}; {shape} was expected.")
     if not (alpha > HAIR_ALPHA).any():
         raise NoHairError("No pixel is mostly hair; there is nothing to reconstruct.")
-    envelope, xy_from_view = hair_envelope(alpha > HAIR_ALPHA, solid, head=head, voxel=params.voxel), head.xy_from_view
     every = max(params.every, -(-len(traced.points) // params.unknowns))
     keep, offsets = _thinned(traced.offsets, every)
     points = np.asarray(traced.points, np.float64)[keep]
     occluded = np.asarray(traced.occluded, np.bool_)[keep]
-    target, weight = _constraints(points, envelope, xy_from_view, shape, params, depth_strokes)
+    (under, over), envelope = together(
+        lambda: _crossings(points, offsets, occluded, radius=params.neighbour_radius_px),
+        lambda: hair_envelope(alpha > HAIR_ALPHA, solid, head=head, voxel=params.voxel),
+    )
+    target, weight = _constraints(points, envelope, head.xy_from_view, shape, params, depth_strokes)
     near = fields.neighbours(
         points,
         offsets=offsets,
@@ -118,7 +122,6 @@ def depth(
         most=params.neighbour_count,
     )
     found = _solved(target, weight, offsets, near, target, params)
-    under, over = _crossings(points, offsets, occluded, radius=params.neighbour_radius_px)
     allowed, held = np.full(len(points), np.inf), np.zeros(len(points), np.bool_)
     for _ in range(params.layer_rounds):
         allowed[under] = found.z[over] - params.layer_gap
