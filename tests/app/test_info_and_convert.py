@@ -2,9 +2,12 @@
 
 import itertools
 import json
+import struct
 
 import numpy as np
 import pytest
+from ball_hair import ball_hair
+from gltf_validator import validator_report
 from small_portrait import portrait
 
 from tress.io.format import STRANDS
@@ -71,7 +74,8 @@ def test_info_lists_every_field_when_asked(tress, saved):
     ("arguments", "code", "message"),
     [
         (["info", "absent.usdc"], 2, "does not exist"),
-        (["info", "hair.glb"], 2, "writes but does not read"),
+        (["info", "hair.glb"], 2, "does not begin as one"),
+        (["convert", "hair.glb", "other.usdc"], 2, "writes but does not read"),
         (["info", "hair.fbx"], 2, "one of .usdc"),
         (["convert", "hair.usdc", "hair.fbx"], 2, "one of .usdc"),
         (["convert", "hair.usdc", "absent/hair.ply"], 3, "could not be written"),
@@ -92,3 +96,53 @@ def test_what_cannot_be_done_is_said(tress, saved, monkeypatch, arguments, code,
 def test_errors_are_json_where_that_was_asked_for(tress, saved):
     said = tress("convert", saved, saved.with_name("hair.fbx"), "--json")
     assert json.loads(said.out)["exit_code"] == said.code == 2
+
+
+def test_info_tells_what_a_glb_holds(tress, tmp_path):
+    path = tmp_path / "hair.glb"
+    format_of(path).write(ball_hair(12, moving=True), path)
+    said = tress("info", path)
+    assert said.code == 0, said.err
+    assert "strips_lod0" in said.out and "morph targets" in said.out and "2.00 s" in said.out
+    found = json.loads(tress("info", path, "--json").out)
+    report = validator_report(path)["info"]
+    triangles = [
+        int(p["holds"].split(", ")[1].split()[0].replace(",", "")) for p in found["parts"] if p["kind"] == "mesh"
+    ]
+    assert sum(triangles) == report["totalTriangleCount"] and found["bytes"] == path.stat().st_size
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (b"", "does not begin as one"),
+        (b"glTF" + bytes(16), "does not begin as one"),
+        (struct.pack("<4sIII4s", b"glTF", 1, 20, 0, b"JSON"), "glTF 1"),
+        (struct.pack("<4sIII4s", b"glTF", 2, 20, 9, b"JSON") + b"[]", "cannot be read"),
+        (
+            struct.pack("<4sIII4s", b"glTF", 2, 20, 99, b"JSON") + b'{"meshes": [{"primitives": [{}]}]}',
+            "cannot be read",
+        ),
+        (struct.pack("<4sIII4s", b"glTF", 2, 20, 2**31, b"JSON") + b"[" * 99999, "cannot be read"),
+    ],
+)
+def test_damaged_glb_files_are_refused_in_one_line(tress, tmp_path, data, message):
+    path = tmp_path / "bad.glb"
+    path.write_bytes(data)
+    said = tress("info", path)
+    assert said.code == 2 and message in said.err and said.err.count("\n") == 1
+
+
+def test_endings_that_can_be_read_are_named(tress, tmp_path):
+    (tmp_path / "a.txt").write_text("hair")
+    said = tress("info", tmp_path / "a.txt")
+    assert said.code == 2 and ".usdc" in said.err and ".glb" not in said.err
+
+
+def test_info_of_strips_is_short(tress, tmp_path):
+    format_of(tmp_path / "hair.usdc").write(ball_hair(30, moving=True), tmp_path / "hair.usdc")
+    said = tress("info", tmp_path / "hair.usdc")
+    assert said.code == 0 and len(said.out.splitlines()) < 12, said.out
+    assert "30 of them; -v shows each" in said.out and "control points, 2 groups" in said.out
+    assert "moments from 0 to 2 s for" in said.out and "px, " in said.out
+    assert len(tress("info", tmp_path / "hair.usdc", "-v").out.splitlines()) > 100

@@ -8,18 +8,20 @@ import typer
 
 from tress.app.exit_codes import guarded
 
-_RECORDS_SHOWN = 40
+_RECORDS_SHOWN = 12
 
 
 @guarded
 def info(
     file: Annotated[Path, typer.Argument(help="A file that Tress wrote, best the .usdc.", show_default=False)],
     verbose: Annotated[
-        int, typer.Option("-v", "--verbose", count=True, help="Show every field, and all parameters.")
+        int, typer.Option("-v", "--verbose", count=True, help="Show every record with all fields and parameters.")
     ] = 0,
     json_output: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Say what a saved file holds: strands, head, camera, and the parameters that they were made with.
+    """Say what a saved file holds: strips, strands, head, camera, and the parameters that they were made with.
+
+    Of a .glb, which keeps no records, it tells meshes, clips and pictures.
 
     Examples:
 
@@ -30,6 +32,9 @@ def info(
     from tress.app.saved_document import opened
     from tress.io.formats.registry import format_of
 
+    if file.suffix.lower() == ".glb":
+        _tell_glb(file, json_output=json_output)
+        return
     records = opened(file).records
     facts = {"format": format_of(file).name, "bytes": file.stat().st_size}
     if json_output:
@@ -42,15 +47,37 @@ def info(
         _print_fields(records) if verbose else _print_lines(records)
 
 
+def _tell_glb(file: Path, *, json_output: bool) -> None:
+    import json
+    from dataclasses import asdict
+
+    from tress.app.tables import print_table
+    from tress.io.glb_summary import glb_summary
+
+    parts = glb_summary(file)
+    size = file.stat().st_size
+    if json_output:
+        found = {"ok": True, "file": str(file), "format": "glb", "bytes": size, "parts": [asdict(p) for p in parts]}
+        typer.echo(json.dumps(found))
+    else:
+        typer.echo(f"{file}: glb, {size / 1e6:.1f} MB")
+        print_table(["part", "type", "holds"], [(part.name, part.kind, part.holds) for part in parts])
+
+
 def _print_lines(records: Mapping[str, Any]) -> None:
-    """One line a record; of very many records the first."""
-    from tress.app.record_words import record_words
+    """One line a record; of very many records of a type one line for all."""
+    from tress.app.record_words import many_words, record_words
     from tress.app.tables import print_table
 
-    shown = list(records.items())[:_RECORDS_SHOWN]
-    rows = [(name, type(record).__name__, record_words(record)) for name, record in shown]
-    if len(records) > len(rows):
-        rows.append(("…", "", f"and {len(records) - len(rows)} more; -v shows all"))
+    kinds: dict[type, list[str]] = {}
+    for name, record in records.items():
+        kinds.setdefault(type(record), []).append(name)
+    rows = []
+    for kind, names in kinds.items():
+        if len(names) > _RECORDS_SHOWN:
+            rows.append((f"{names[0]} …", kind.__name__, many_words([records[name] for name in names])))
+        else:
+            rows += [(name, kind.__name__, record_words(records[name])) for name in names]
     print_table(["record", "type", "holds"], rows)
 
 

@@ -1,23 +1,60 @@
 """A record in a line, for people: one function for each type that has more to say than its arrays."""
 
 import dataclasses
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from tress.model.atlas import Atlas
 from tress.model.camera import Camera
+from tress.model.group import Group
 from tress.model.head import Head
+from tress.model.keyframes import Keyframes
 from tress.model.mesh import Mesh
 from tress.model.recipe import Recipe
 from tress.model.record import Record
 from tress.model.strands import Strands
+from tress.model.strip import Strip
 
 
 def record_words(record: Record) -> str:
     """What the record holds, in one line."""
     words = WORDS.get(type(record))
     return words(record) if words else ", ".join(_field_words(record))
+
+
+def many_words(records: Sequence[Record]) -> str:
+    """What many records of one type hold together, in one line."""
+    words = f"{len(records):,} of them; -v shows each"
+    strips = [record for record in records if isinstance(record, Strip)]
+    if not strips:
+        return words
+    points = sum(strip.weights.size for strip in strips)
+    groups, attached = {strip.group for strip in strips}, sum(strip.root is not None for strip in strips)
+    return f"{words}; {points:,} control points, {len(groups)} groups, {attached:,} attached"
+
+
+def _group(group: Group) -> str:
+    parts = [
+        f"in {group.parent}" if group.parent else "",
+        "hidden" if group.hidden else "",
+        "locked" if group.locked else "",
+    ]
+    return ", ".join(part for part in parts if part) or "a group"
+
+
+def _atlas(atlas: Atlas) -> str:
+    height, width = atlas.color.shape[:2]
+    maps = f"; {', '.join(atlas.maps)}" if atlas.maps else ""
+    return f"{width} x {height} px, {len(atlas.regions)} regions{maps}"
+
+
+def _keyframes(keyframes: Keyframes) -> str:
+    kind, span = keyframes.interpolation, f"{keyframes.times[0]:g} to {keyframes.times[-1]:g} s"
+    return (
+        f"{len(keyframes.times)} moments from {span} for {keyframes.target}, {kind}{', loop' if keyframes.loop else ''}"
+    )
 
 
 def _strands(strands: Strands) -> str:
@@ -52,6 +89,9 @@ def _recipe(recipe: Recipe) -> str:
 
 
 WORDS: Mapping[type[Record], Callable[[Any], str]] = {
+    Atlas: _atlas,
+    Group: _group,
+    Keyframes: _keyframes,
     Strands: _strands,
     Mesh: _mesh,
     Head: _head,

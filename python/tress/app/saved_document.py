@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from tress.base.errors import FormatError, InputError
-from tress.io.formats.registry import format_of
+from tress.io.formats.registry import FORMATS, format_of
 from tress.model.document import Document
 
 
@@ -11,6 +11,10 @@ def opened(path: Path) -> Document:
     """The document in `path`. Raises `InputError` where there is none, `FormatError` where its format is not read."""
     if not path.is_file():
         raise InputError(f"{path} does not exist; name a file that Tress wrote.")
+    known = [suffix for form in FORMATS for suffix in form.suffixes]
+    if path.suffix.lower() not in known:
+        read = ", ".join(suffix for form in FORMATS if form.read for suffix in form.suffixes)
+        raise InputError(f"{path.name} has suffix {path.suffix!r}; one of {read} was expected.")
     form = format_of(path)
     if form.read is None:
         raise FormatError(f"{path} is {form.name}, which Tress writes but does not read; name the .usdc instead.")
