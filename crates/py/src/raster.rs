@@ -5,7 +5,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2,
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tress_raster::{AlphaPicture, GBuffer, ProjectedScene, ProjectedVertex, RasterError, SegmentFragments};
+use tress_raster::{AlphaPicture, Cutout, GBuffer, ProjectedScene, ProjectedVertex, RasterError, SegmentFragments};
 
 type Floats<'py> = PyReadonlyArray1<'py, f32>;
 type Rows<'py> = PyReadonlyArray2<'py, f32>;
@@ -47,11 +47,18 @@ fn raster_gbuffer<'py>(
     alpha: Floats<'py>,
     mesh_vertices: Rows<'py>,
     triangles: PyReadonlyArray2<'py, u32>,
+    cutouts: Vec<PyReadonlyArray2<'py, u8>>,
+    cutout_of_triangle: PyReadonlyArray1<'py, i32>,
+    corner_uv: Rows<'py>,
     min_width_px: f32,
     width: usize,
     height: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
     let mesh_vertices = vertices(&mesh_vertices)?;
+    let cutouts: Vec<Cutout<'_>> = cutouts
+        .iter()
+        .map(|picture| Ok(Cutout { alpha: picture.as_slice()?, width: picture.shape()[1] }))
+        .collect::<PyResult<_>>()?;
     let scene = ProjectedScene {
         strand_points: strand_points.as_slice()?.as_chunks().0,
         offsets: offsets.as_slice()?,
@@ -59,6 +66,9 @@ fn raster_gbuffer<'py>(
         alpha: alpha.as_slice()?,
         mesh_vertices: &mesh_vertices,
         triangles: triangles.as_slice()?.as_chunks().0,
+        cutouts: &cutouts,
+        cutout_of_triangle: cutout_of_triangle.as_slice()?,
+        corner_uv: corner_uv.as_slice()?.as_chunks().0,
         min_width_px,
         width,
         height,

@@ -21,6 +21,9 @@ pub enum RasterError {
     /// A triangle names no vertex.
     #[error("triangle {0} names a vertex that does not exist")]
     NoSuchVertex(usize),
+    /// A triangle names no picture of opacity, or one that is empty or no rectangle.
+    #[error("triangle {0} names a picture of opacity that does not exist or holds no rectangle of texels")]
+    NoSuchCutout(usize),
     /// A picture without pixels, or too large for the coordinates' precision.
     #[error("the picture is {0} x {1} pixels; 1 to 16384 were expected")]
     Size(usize, usize),

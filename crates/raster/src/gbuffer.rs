@@ -36,7 +36,7 @@ pub struct GBuffer {
     /// Middle of the samples that see it. Segment: position from 0 to 1 along, and -1 to 1 across, of the strand.
     /// Triangle: barycentric coordinates of the second and third corner. Right in perspective.
     pub parameter: Vec<[f32; 2]>,
-    /// Share of the pixel, a multiple of 1/16.
+    /// Share of the pixel: a multiple of 1/16 where nothing is seen through.
     pub weight: Vec<f32>,
     /// Depth as given with the vertices (linear on the screen).
     pub depth: Vec<f32>,

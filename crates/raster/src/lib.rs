@@ -7,6 +7,7 @@
 mod alpha_coverage;
 mod bins;
 mod composite;
+mod cutout;
 mod error;
 mod fit;
 mod gbuffer;
@@ -23,6 +24,7 @@ mod triangle;
 
 pub use alpha_coverage::AlphaPicture;
 pub use composite::{composite, interpolated, strand_picture};
+pub use cutout::Cutout;
 pub use error::RasterError;
 pub use fit::fit_colors;
 pub use gbuffer::{GBuffer, Kind};

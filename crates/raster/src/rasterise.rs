@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::bins::{Bins, TileGrid};
+use crate::cutout::Layers;
 use crate::gbuffer::{GBuffer, TileFragments};
 use crate::resolve::Resolver;
 use crate::samples::{OpacityOrders, Pattern};
@@ -19,8 +20,9 @@ const LEAST_ORDERED: usize = 512;
 
 /// What every pixel of the picture sees of the scene.
 ///
-/// Triangles come first, since they hide much; then the segments of the tile from front to back, until every sample of
-/// the tile is nearer than the next segment. Cost: about linear in the segments plus what is visible of them.
+/// Opaque triangles come first, since they hide much; then the segments of the tile from front to back, until every
+/// sample of the tile is nearer than the next segment; last the triangles that one can see through, as layers. Cost:
+/// about linear in the segments plus what is visible of them, and in the samples of all layers.
 ///
 /// # Errors
 /// Arrays that do not fit together, a picture without pixels.
@@ -49,11 +51,12 @@ pub fn rasterise(scene: &ProjectedScene) -> Result<GBuffer, RasterError> {
 struct Scratch {
     tile: Tile,
     keys: Vec<u64>,
+    layers: Layers,
 }
 
 impl Scratch {
     fn new() -> Self {
-        Self { tile: Tile::new(), keys: Vec::new() }
+        Self { tile: Tile::new(), keys: Vec::new(), layers: Layers::new() }
     }
 }
 
@@ -69,7 +72,7 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    fn tile_fragments(&self, index: usize, Scratch { tile, keys }: &mut Scratch) -> TileFragments {
+    fn tile_fragments(&self, index: usize, Scratch { tile, keys, layers }: &mut Scratch) -> TileFragments {
         let (column, row) = (index % self.grid.columns, index / self.grid.columns);
         let size = tile.place(column, row, self.scene.width, self.scene.height);
         let mut found = TileFragments { fragments: Vec::new(), counts: vec![0; size[0] * size[1]], width: size[0] };
@@ -81,12 +84,23 @@ impl Work<'_> {
         tile.clear();
         for entry in self.triangles.of_tile(index) {
             let triangle = entry as u32;
+            if self.scene.cutout(triangle as usize).is_some() {
+                continue;
+            }
             if let Some(drawn) = triangle_of(self.scene, triangle as usize) {
                 drawn.draw(triangle, tile, &self.pattern);
             }
         }
         self.draw_segments(keys, tile);
-        Resolver { scene: self.scene, points: self.points, pattern: &self.pattern }.resolve(tile, &mut found);
+        layers.clear();
+        for triangle in self.triangles.of_tile(index).map(|entry| entry as u32) {
+            if self.scene.cutout(triangle as usize).is_some()
+                && let Some(seen) = triangle_of(self.scene, triangle as usize)
+            {
+                layers.add(self.scene, &seen, triangle, tile, &self.pattern);
+            }
+        }
+        Resolver { scene: self.scene, points: self.points, pattern: &self.pattern }.resolve(tile, layers, &mut found);
         found
     }
 

@@ -1,6 +1,7 @@
 //! From the samples of a pixel to its fragments.
 
 use crate::bins::TILE;
+use crate::cutout::Layers;
 use crate::gbuffer::{Fragment, Kind, TileFragments};
 use crate::samples::{Pattern, SAMPLES};
 use crate::segment::Segment;
@@ -20,24 +21,45 @@ pub(crate) struct Resolver<'a> {
 #[derive(Clone, Copy)]
 struct Group {
     primitive: u32,
+    /// Samples, those that are seen in part as parts.
     count: f32,
     x: f32,
     y: f32,
 }
 
+/// The groups of a pixel.
+#[derive(Default)]
+struct Groups(Vec<Group>);
+
+impl Groups {
+    fn add(&mut self, primitive: u32, share: f32, x: f32, y: f32) {
+        let known = self.0.iter().position(|group| group.primitive == primitive).unwrap_or(self.0.len());
+        if known == self.0.len() {
+            self.0.push(Group { primitive, count: 0.0, x: 0.0, y: 0.0 });
+        }
+        let group = &mut self.0[known];
+        group.count += share;
+        group.x += share * x;
+        group.y += share * y;
+    }
+}
+
 impl Resolver<'_> {
     /// Adds the fragments of every pixel of the tile, row by row, and how many each pixel has.
-    pub fn resolve(&self, tile: &Tile, found: &mut TileFragments) {
+    pub fn resolve(&self, tile: &Tile, layers: &mut Layers, found: &mut TileFragments) {
         let fragments = &mut found.fragments;
+        let mut groups = Groups::default();
         for row in 0..tile.size[1] {
             for column in 0..tile.size[0] {
-                let primitives = &tile.primitive[row as usize * TILE + column as usize];
-                if primitives == &[EMPTY; SAMPLES] {
+                let pixel = row as usize * TILE + column as usize;
+                if tile.primitive[pixel] == [EMPTY; SAMPLES] && !layers.over(pixel) {
                     continue;
                 }
                 let corner = [(tile.origin[0] + column) as f32, (tile.origin[1] + row) as f32];
                 let first = fragments.len();
-                self.resolve_pixel(primitives, corner, fragments);
+                groups.0.clear();
+                self.group(&tile.primitive[pixel], pixel, layers, &mut groups);
+                fragments.extend(groups.0.iter().filter_map(|group| self.fragment(group, corner)));
                 fragments[first..].sort_unstable_by(|a, b| {
                     a.depth.total_cmp(&b.depth).then((a.kind as u8, a.primitive).cmp(&(b.kind as u8, b.primitive)))
                 });
@@ -46,19 +68,21 @@ impl Resolver<'_> {
         }
     }
 
-    fn resolve_pixel(&self, primitives: &[u32; SAMPLES], corner: [f32; 2], fragments: &mut Vec<Fragment>) {
-        let mut groups = [Group { primitive: EMPTY, count: 0.0, x: 0.0, y: 0.0 }; SAMPLES];
-        let mut used = 0;
-        for (i, &primitive) in primitives.iter().enumerate().filter(|(_, p)| **p != EMPTY) {
-            let known = groups[..used].iter().position(|g| g.primitive == primitive);
-            let group = &mut groups[known.unwrap_or(used)];
-            used += usize::from(known.is_none());
-            group.primitive = primitive;
-            group.count += 1.0;
-            group.x += self.pattern.x[i];
-            group.y += self.pattern.y[i];
+    /// Gathers the samples of a pixel by what they see.
+    fn group(&self, primitives: &[u32; SAMPLES], pixel: usize, layers: &mut Layers, groups: &mut Groups) {
+        let layered = layers.over(pixel);
+        for (i, &primitive) in primitives.iter().enumerate() {
+            let (x, y) = (self.pattern.x[i], self.pattern.y[i]);
+            let mut through = 1.0;
+            if layered {
+                through = layers.for_each_share(pixel, i, |triangle, share| {
+                    groups.add(triangle | TRIANGLE_BIT, share, x, y);
+                });
+            }
+            if primitive != EMPTY && through > 0.0 {
+                groups.add(primitive, through, x, y);
+            }
         }
-        fragments.extend(groups[..used].iter().filter_map(|group| self.fragment(group, corner)));
     }
 
     fn fragment(&self, group: &Group, corner: [f32; 2]) -> Option<Fragment> {

@@ -1,6 +1,6 @@
 //! What is rasterised: projected strands and triangles.
 
-use crate::{ProjectedVertex, RasterError};
+use crate::{Cutout, ProjectedVertex, RasterError};
 
 /// Strands and triangles on the screen, flat. Strand i has the points `offsets[i]..offsets[i + 1]`.
 #[derive(Debug, Clone, Copy)]
@@ -16,8 +16,14 @@ pub struct ProjectedScene<'a> {
     pub alpha: &'a [f32],
     /// Vertices of all triangles.
     pub mesh_vertices: &'a [ProjectedVertex],
-    /// Corners of the triangles; both sides are drawn, opaque.
+    /// Corners of the triangles; both sides are drawn.
     pub triangles: &'a [[u32; 3]],
+    /// Pictures of opacity that triangles may name.
+    pub cutouts: &'a [Cutout<'a>],
+    /// The picture of every triangle, -1 for one that is opaque; empty where all are.
+    pub cutout_of_triangle: &'a [i32],
+    /// Texture coordinates (u, v) of the three corners of every triangle; empty where all are opaque.
+    pub corner_uv: &'a [[f32; 6]],
     /// Least width of a strand on the screen, in pixels.
     pub min_width_px: f32,
     /// Width of the picture, in pixels.
@@ -46,8 +52,31 @@ impl ProjectedScene<'_> {
         let count = self.mesh_vertices.len();
         match self.triangles.iter().position(|t| t.iter().any(|&v| v as usize >= count)) {
             Some(triangle) => Err(RasterError::NoSuchVertex(triangle)),
-            None => Ok(()),
+            None => self.check_cutouts(),
         }
+    }
+
+    /// The picture of opacity of a triangle; None where it is opaque.
+    pub(crate) fn cutout(&self, triangle: usize) -> Option<&Cutout<'_>> {
+        self.cutout_of_triangle.get(triangle).and_then(|&cutout| self.cutouts.get(usize::try_from(cutout).ok()?))
+    }
+
+    fn check_cutouts(&self) -> Result<(), RasterError> {
+        let expected = self.triangles.len();
+        if self.cutout_of_triangle.is_empty() {
+            return Ok(());
+        }
+        let given = [("cutout_of_triangle", self.cutout_of_triangle.len()), ("corner_uv", self.corner_uv.len())];
+        if let Some(&(what, given)) = given.iter().find(|(_, given)| *given != expected) {
+            return Err(RasterError::Length { what, given, expected });
+        }
+        let fits = |&cutout: &i32| {
+            usize::try_from(cutout).map_or(cutout == -1, |i| self.cutouts.get(i).is_some_and(Cutout::fits))
+        };
+        self.cutout_of_triangle
+            .iter()
+            .position(|cutout| !fits(cutout))
+            .map_or(Ok(()), |i| Err(RasterError::NoSuchCutout(i)))
     }
 
     fn check_offsets(&self) -> Result<(), RasterError> {

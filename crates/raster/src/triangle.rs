@@ -1,4 +1,4 @@
-//! One triangle in one tile, opaque, seen from either side.
+//! One triangle in one tile, seen from either side.
 //!
 //! An edge that two triangles share is evaluated from the same end by both, so that both get the same number and exactly
 //! one of them takes each sample: no gaps and no doubles, without exact arithmetic.
@@ -7,7 +7,7 @@ use crate::ProjectedVertex;
 use crate::bins::{Rectangle, TILE};
 use crate::samples::{Lane, Pattern, SAMPLES, larger, largest, take, word};
 use crate::strand_points::snapped;
-use crate::tile::{TRIANGLE_BIT, Tile};
+use crate::tile::{EMPTY, TRIANGLE_BIT, Tile};
 
 /// A triangle with its three edges and its plane of depth.
 pub(crate) struct Triangle {
@@ -35,17 +35,25 @@ impl Triangle {
         if area == 0.0 || vertices.iter().any(|v| v.scale <= 0.0) {
             return None;
         }
-        let [za, zb, zc] = vertices.map(|v| f64::from(v.depth));
-        let gx = ((zb - za) * (c[1] - a[1]) - (zc - za) * (b[1] - a[1])) / area;
-        let gy = ((zc - za) * (b[0] - a[0]) - (zb - za) * (c[0] - a[0])) / area;
+        let depths = vertices.map(|v| v.depth);
         let edge = |i: usize| Edge::new(corners[i], corners[(i + 1) % 3], area > 0.0);
         Some(Self {
             corners,
             edges: [edge(0), edge(1), edge(2)],
             depth_at_first: vertices[0].depth,
-            gradient: [gx as f32, gy as f32],
-            nearest: za.min(zb).min(zc) as f32,
+            gradient: gradient(corners, depths),
+            nearest: depths[0].min(depths[1]).min(depths[2]),
         })
+    }
+
+    /// Where the first corner lies, in pixels.
+    pub fn first_corner(&self) -> [f32; 2] {
+        self.corners[0]
+    }
+
+    /// How a value that is linear on the screen, and given at the corners, grows a pixel to the right and down.
+    pub fn gradient_of(&self, values: [f32; 3]) -> [f32; 2] {
+        gradient(self.corners, values)
     }
 
     /// Rectangle around the triangle, in pixels.
@@ -87,6 +95,29 @@ impl Triangle {
         }
     }
 
+    /// Visits every sample of the tile that the triangle covers before what is there already, without drawing, as
+    /// (pixel of the tile, sample, place in the picture, depth).
+    pub fn for_each_sample(&self, tile: &Tile, pattern: &Pattern, mut visit: impl FnMut(usize, usize, [f32; 2], f32)) {
+        let Rectangle { min, max } = self.bounds();
+        let (columns, rows) = (tile.clip(0, min[0], max[0]), tile.clip(1, min[1], max[1]));
+        let forms = self.edges.map(|e| pattern.linear(-e.along[1], e.along[0]));
+        let depths = pattern.linear(self.gradient[0], self.gradient[1]);
+        for row in rows {
+            for column in columns.clone() {
+                let pixel = row as usize * TILE + column as usize;
+                let corner = [(tile.origin[0] + column) as f32, (tile.origin[1] + row) as f32];
+                if self.nearest >= tile.farthest[pixel] || self.misses(corner) {
+                    continue;
+                }
+                let (mut depth, mut primitive) = (tile.depth[pixel], [EMPTY; SAMPLES]);
+                self.cover(corner, &forms, &depths, 0, &mut depth, &mut primitive);
+                for i in (0..SAMPLES).filter(|&i| primitive[i] != EMPTY) {
+                    visit(pixel, i, [corner[0] + pattern.x[i], corner[1] + pattern.y[i]], depth[i]);
+                }
+            }
+        }
+    }
+
     /// Whether the pixel lies wholly outside of an edge.
     fn misses(&self, corner: [f32; 2]) -> bool {
         self.edges.iter().any(|e| {
@@ -122,6 +153,15 @@ impl Triangle {
         }
         take(&hits, &nearer, index, depth, primitive);
     }
+}
+
+fn gradient(corners: [[f32; 2]; 3], values: [f32; 3]) -> [f32; 2] {
+    let [a, b, c] = corners.map(|p| p.map(f64::from));
+    let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    let [za, zb, zc] = values.map(f64::from);
+    let gx = ((zb - za) * (c[1] - a[1]) - (zc - za) * (b[1] - a[1])) / area;
+    let gy = ((zc - za) * (b[0] - a[0]) - (zb - za) * (c[0] - a[0])) / area;
+    [gx as f32, gy as f32]
 }
 
 impl Edge {

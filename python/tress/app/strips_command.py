@@ -42,6 +42,14 @@ def strips(
         ),
     ] = None,
     seed: Annotated[int, param_option(StripsParams, "seed", panel=_HAIR)] = _DEFAULT.seed,
+    style: Annotated[
+        str,
+        typer.Option(
+            help="How pictures are shaded: textured (strands, highlights), gouraud (plain strips) or photo (unlit).",
+            metavar="NAME",
+            rich_help_panel=_RESULT,
+        ),
+    ] = "textured",
     formats: Annotated[
         str, typer.Option(help="Files to write, by ending, with commas between.", rich_help_panel=_RESULT)
     ] = "usdc,glb",
@@ -67,7 +75,7 @@ def strips(
 ) -> None:
     """Grow a hairdo of strips (hair cards) on the built-in head, or on a fitted one.
 
-    The folder then holds hair.usdc (strips as NURBS patches, with the mesh beside them), hair.glb, preview.png (four
+    The folder then holds hair.usdc (strips as NURBS patches, with the mesh beside them), hair.glb, preview.png (five
     sides and from above), turntable.webm and report.json.
 
     [bold]Examples[/]
@@ -90,6 +98,7 @@ def strips(
         params=StripsParams(strips=count, length=length, seed=seed),
         color=linear_of_hex(color),
         head=head,
+        style=style,
         formats=tuple(name.strip().lstrip(".").lower() for name in formats.split(",") if name.strip()),
         turntable=turntable,
     )

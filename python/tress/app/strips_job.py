@@ -12,21 +12,21 @@ from tress.base.report import Report
 from tress.io.atomic import OutputFolder
 from tress.io.formats.registry import format_of
 from tress.io.report_file import write_report
-from tress.methods.strips.appearance import BROWN, Color, gouraud_scene, preview
+from tress.methods.strips.appearance import BROWN, Color, preview, strips_scene
 from tress.methods.strips.bald_document import HEAD
 from tress.methods.strips.hairdo import hairdo
 from tress.methods.strips.params import StripsParams
 from tress.methods.strips.presets.registry import preset_of
 from tress.model.document import Document
 from tress.model.head import Head
-from tress.render.flat_scene import flat_scene
-from tress.render.styles.photo import PhotoStyle
+from tress.render.style import Style
+from tress.render.styles import STYLES
 from tress.render.textures.params import TextureParams
 from tress.render.textures.strand_atlas import strand_atlas
 from tress.render.turntable import turntable
 from tress.render.video import write_webm
 
-ATLAS_PX, ROOT_SHADE, TIP_LIGHT = 1024, 0.6, 1.35
+ATLAS_PX, ROOT_SHADE, TIP_LIGHT = 1024, 0.75, 1.25
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,7 @@ class StripsOptions:
     params: StripsParams = field(default_factory=StripsParams)
     color: Color = BROWN
     head: Path | None = None
+    style: str = "textured"
     formats: tuple[str, ...] = ("usdc", "glb")
     turntable: bool = True
 
@@ -53,6 +54,7 @@ class Delivery:
 def run_strips(options: StripsOptions, *, report: Report) -> Delivery:
     """Grows the hairdo and delivers it. Raises the errors of both; then nothing was written."""
     preset_of(options.preset)
+    style = style_of(options.style)
     formats = {f"hair.{ending}": format_of(Path(f"hair.{ending}")) for ending in options.formats}
     head = None if options.head is None else fitted_head(options.head)
     with report.stage("strands"):
@@ -63,15 +65,24 @@ def run_strips(options: StripsOptions, *, report: Report) -> Delivery:
             for name, form in formats.items():
                 form.write(document, output.path / name)
         with report.stage("preview"):
-            Image.fromarray(preview(document, color=options.color)).save(output.path / "preview.png", compress_level=4)
+            picture = preview(document, color=options.color, style=style)
+            Image.fromarray(picture).save(output.path / "preview.png", compress_level=4)
         if options.turntable:
             with report.stage("turntable"):
-                scene = flat_scene(gouraud_scene(document, color=options.color))
-                write_webm(output.path / "turntable.webm", frames=turntable(scene, style=PhotoStyle(), report=report))
+                scene = strips_scene(document, color=options.color, textured=style.name != "gouraud")
+                write_webm(output.path / "turntable.webm", frames=turntable(scene, style=style, report=report))
         facts = {"preset": options.preset, "parameters": dataclasses.asdict(options.params)}
         write_report(report, output.path / "report.json", facts=facts)
         files = tuple(sorted(file.relative_to(output.path) for file in output.path.rglob("*") if file.is_file()))
     return Delivery(options.folder, files)
+
+
+def style_of(name: str) -> Style:
+    """The style of that name with its settings as they come. Raises `InputError` that names them all."""
+    known = {style.name: style for style in STYLES}
+    if name not in known:
+        raise InputError(f"There is no style {name!r}; one of {', '.join(known)} was expected.")
+    return known[name]()
 
 
 def texture_params(options: StripsOptions) -> TextureParams:

@@ -9,7 +9,8 @@ Every function raises `InputError` for wrong shapes and numbers that are not fin
 number of cores.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -33,7 +34,8 @@ class Fragments:
     - `primitive` (F,) int32: first point of the segment, or index of the triangle
     - `parameter` (F, 2) float32: along the segment 0 to 1 and across the strand -1 to 1 (to the right of its direction,
       with y down), or the barycentric coordinates of the triangle's second and third corner; right in perspective
-    - `weight` (F,) float32: share of the pixel, a multiple of 1/16; the sum over a pixel is its coverage
+    - `weight` (F,) float32: share of the pixel, a multiple of 1/16 where nothing is seen through; the sum over a pixel
+      is its coverage
     - `depth` (F,) float32: as given with the vertices
     """
 
@@ -50,6 +52,19 @@ class Fragments:
     def pixel(self) -> Array:
         """(F,) int64: the pixel of every fragment, row * width + column."""
         return np.repeat(np.arange(self.width * self.height), np.diff(self.pixel_offsets))
+
+
+@dataclass(frozen=True, eq=False)
+class Cutouts:
+    """Opacity over triangles: `pictures` (H, W) uint8, 255 opaque, the top row first; `of_triangle` (F,) int32, the
+    picture of every triangle or -1 for an opaque one; `corner_uv` (F, 3, 2) float32, v up."""
+
+    pictures: Sequence[Array] = ()
+    of_triangle: Array = field(default_factory=lambda: np.zeros(0, np.int32))
+    corner_uv: Array = field(default_factory=lambda: np.zeros((0, 3, 2), np.float32))
+
+
+OPAQUE = Cutouts()
 
 
 def project(points: Array, *, xy_from_points: Array) -> Array:
@@ -75,17 +90,21 @@ def rasterise(
     triangles: Array,
     width: int,
     height: int,
+    cutouts: Cutouts = OPAQUE,
     min_width_px: float = 1.0,
 ) -> Fragments:
     """What every pixel of a picture sees of projected strands (N, 4) and triangles (F, 3) of projected vertices (V, 4).
 
-    16 samples a pixel, each with its own depth test; triangles are opaque from both sides. Strand i is
+    16 samples a pixel, each with its own depth test; triangles are seen from both sides, and through where `cutouts`
+    say so: every sample orders its layers by depth and adds them up exactly, also where triangles pass through each
+    other; what is left of less than 1/512 goes to the layer before it. Strand i is
     `strand_points[offsets[i]:offsets[i + 1]]`, with `half_width_px` (N,) and `alpha` (N,) at its points. Strands
     narrower than `min_width_px` are drawn that wide with as much less opacity. Opacity is a random subset of the
     samples, the same along a strand and independent between strands; it is right in the mean, with steps of 1/16.
 
     Cost: 2.5 million segments to 1000 x 1000 pixels in 0.4 to 1 s of one core, thin and transparent strands the most.
-    Limits: a strand that points exactly at the viewer shows nothing; pictures of at most 16384 pixels a side.
+    Limits: a strand that points exactly at the viewer shows nothing; pictures of at most 16384 pixels a side; opacity
+    is read bilinearly at every sample: textures more than four times as fine as the picture are undersampled.
     """
     given = (
         checked(strand_points, name="strand_points", dtype=np.float32, shape=(None, 4)),
@@ -94,6 +113,9 @@ def rasterise(
         checked(alpha, name="alpha", dtype=np.float32, shape=(None,)),
         checked(mesh_vertices, name="mesh_vertices", dtype=np.float32, shape=(None, 4)),
         checked(triangles, name="triangles", dtype=np.uint32, shape=(None, 3)),
+        [checked(picture, name="cutouts", dtype=np.uint8, shape=(None, None)) for picture in cutouts.pictures],
+        checked(cutouts.of_triangle, name="cutouts.of_triangle", dtype=np.int32, shape=(None,)),
+        checked(cutouts.corner_uv, name="cutouts.corner_uv", dtype=np.float32, shape=(None, 3, 2)).reshape(-1, 6),
     )
     if width < 1 or height < 1:
         raise InputError(f"The picture is {width} x {height} pixels; positive numbers were expected.")

@@ -1,10 +1,12 @@
 """A scene as flat arrays: what the rasteriser and the styles read."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from tress.kernel.raster import OPAQUE, Cutouts
 from tress.model.evaluate import Scene
 from tress.model.mesh import Mesh
 from tress.model.strands import Strands
@@ -23,8 +25,9 @@ class FlatScene:
 
     `points` (N, 3), `offsets` (S + 1,), `color` (N, 3) linear, `alpha` (N,), `radius` (N,) metres: float32 but for the
     offsets, int64. `positions` (V, 3) float32, `triangles` (F, 3) int32 into `positions`. `meshes` are the records, and
-    `first_triangle` (len(meshes) + 1,) tells which triangles are theirs. `tangent` (N, 3) and `sky` (N,) are what
-    styles need and is the same for every view: None until `prepared`.
+    `first_triangle` (len(meshes) + 1,) tells which triangles are theirs. `cutouts` are the opacities of their textures,
+    `maps` further pictures of every mesh by name (see `Atlas.maps`). `tangent` (N, 3), `sky` (N,) and `mesh_sky` (V,)
+    are what styles need and is the same for every view: None until `prepared`.
     """
 
     points: Array
@@ -36,12 +39,24 @@ class FlatScene:
     triangles: Array
     meshes: tuple[Mesh, ...]
     first_triangle: Array
+    cutouts: Cutouts = OPAQUE
+    maps: tuple[Mapping[str, Array], ...] = ()
     tangent: Array | None = None
     sky: Array | None = None
+    mesh_sky: Array | None = None
 
 
-def flat_scene(scene: Scene, *, radius_m: float | None = None) -> FlatScene:
-    """The scene as flat arrays. `radius_m` replaces the radius of every strand.
+def flat_scene(
+    scene: Scene,
+    *,
+    radius_m: float | None = None,
+    see_through: bool = True,
+    maps: Mapping[str, Mapping[str, Array]] | None = None,
+) -> FlatScene:
+    """The scene as flat arrays.
+
+    `radius_m` replaces the radius of every strand. Textures with an alpha let see through unless `see_through` says no.
+    `maps` are further pictures of a mesh, by its name and theirs, such as the `normal` and `flow` of an atlas.
 
     >>> strands = Strands(points=[[0, 0, 0], [0, 1, 0]], offsets=[0, 2])
     >>> flat_scene(Scene(strands={"hair": strands})).alpha.tolist()
@@ -60,6 +75,8 @@ def flat_scene(scene: Scene, *, radius_m: float | None = None) -> FlatScene:
         triangles=_joined_triangles(meshes),
         meshes=meshes,
         first_triangle=np.cumsum([0, *(len(m.triangles) for m in meshes)]),
+        cutouts=_cutouts(meshes) if see_through else OPAQUE,
+        maps=tuple((maps or {}).get(name, {}) for name in scene.meshes),
     )
 
 
@@ -79,6 +96,25 @@ def tangents(scene: FlatScene) -> Array:
 def strand_of_point(scene: FlatScene) -> Array:
     """(N,) int64: the strand to which every point belongs."""
     return np.repeat(np.arange(len(scene.offsets) - 1), np.diff(scene.offsets))
+
+
+def _cutouts(meshes: tuple[Mesh, ...]) -> Cutouts:
+    """The alphas of the textures that have one which is not 255 throughout."""
+    pictures, of_triangle, corner_uv = [], [], []
+    for mesh in meshes:
+        through = _alpha(mesh)
+        of_triangle.append(np.full(len(mesh.triangles), -1 if through is None else len(pictures), np.int32))
+        known = through is not None and mesh.corner_uv is not None
+        corner_uv.append(mesh.corner_uv if known else np.zeros((len(mesh.triangles), 3, 2), np.float32))
+        pictures += [] if through is None else [through]
+    return Cutouts(pictures, np.concatenate(of_triangle), np.concatenate(corner_uv)) if pictures else OPAQUE
+
+
+def _alpha(mesh: Mesh) -> Array | None:
+    if mesh.texture is None or mesh.corner_uv is None or mesh.texture.pixels.shape[2] != 4:
+        return None
+    alpha = mesh.texture.pixels[..., 3]
+    return None if alpha.min() == 255 else np.ascontiguousarray(alpha)
 
 
 def _per_point(hair: tuple[Strands, ...], name: str, default: Any) -> Array:

@@ -40,6 +40,7 @@ class SceneOnScreen:
             alpha=self.scene.alpha,
             mesh_vertices=self.vertices,
             triangles=self.scene.triangles,
+            cutouts=self.scene.cutouts,
             width=self.width,
             height=self.height,
             min_width_px=self.min_width_px,
@@ -164,7 +165,7 @@ def hair_coverage(gbuffer: GBuffer) -> Array:
     fragments = gbuffer.fragments
     seen = np.where(fragments.kind == raster.SEGMENT, fragments.weight, np.float32(0))
     before = np.concatenate([[0.0], np.cumsum(seen, dtype=np.float64)])
-    # Weights are multiples of 1/16, so that sums and differences of them are exact.
+    # Weights are multiples of 1/16 or, behind layers, sums of so few numbers that differences stay exact to 1e-12.
     return np.diff(before[fragments.pixel_offsets]).astype(np.float32).reshape(gbuffer.shape)
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from tress.base.errors import InputError
 from tress.head.scalp import scalp_roots
@@ -13,6 +14,7 @@ from tress.model.mesh import Mesh
 Array = np.ndarray[Any, Any]
 
 CANDIDATES = 12  # for each root
+OFF_EARS_M = 0.014
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,8 +36,9 @@ def even_roots(
 ) -> EvenRoots:
     """`count` places on the scalp of a mesh, each as far from the others as may be.
 
-    `where(points)` (N,) bool chooses among places (N, 3), `least_scalp` keeps them off the rim of the mask. The same
-    seed gives the same places. Raises `InputError` where the mesh has no mask `scalp` or nothing is chosen.
+    `where(points)` (N,) bool chooses among places (N, 3), `least_scalp` keeps them off the rim of the mask. Places
+    right at the ears are left out, where strips would be crushed. The same seed gives the same places. Raises
+    `InputError` where the mesh has no mask `scalp` or nothing is chosen.
     """
     scalp = mesh.vertex_attributes.get("scalp")
     if scalp is None:
@@ -47,12 +50,20 @@ def even_roots(
     allowed = share >= least_scalp
     if where is not None:
         allowed &= where(found.positions)
+    allowed &= _off_the_ears(mesh, found.positions)
     if not allowed.any():
         raise InputError("No place on the scalp was chosen; a wider choice was expected.")
     index = np.flatnonzero(allowed)
     index = index[_far_apart(found.positions[index], count)]
     weights = found.barycentric[index].astype(np.float64)
     return EvenRoots(found.triangle[index], weights / weights.sum(axis=1, keepdims=True), found.positions[index])
+
+
+def _off_the_ears(mesh: Mesh, points: Array) -> Array:
+    ears = mesh.vertex_attributes.get("ears")
+    if ears is None or not (ears > 0.5).any():
+        return np.ones(len(points), bool)
+    return KDTree(mesh.positions[ears > 0.5]).query(points)[0] >= OFF_EARS_M
 
 
 def _far_apart(points: Array, count: int) -> Array:
@@ -63,3 +74,8 @@ def _far_apart(points: Array, count: int) -> Array:
         chosen.append(int(np.argmax(gap)))
         gap = np.minimum(gap, np.linalg.norm(points - points[chosen[-1]], axis=1))
     return np.array(chosen)
+
+
+def above_the_ears(points: Array) -> Array:
+    """(N,) bool: not at the temples beside and below the ears, over which hair from above falls anyway."""
+    return (points[:, 1] > 0.02) | (points[:, 2] < -0.045)

@@ -43,13 +43,13 @@ def whorl(centre: Any, *, swirl: float = 0.6, reach_m: float = 0.1) -> Flow:
     return flow
 
 
-def towards(target: Any) -> Flow:
-    """To a point, as to the tie of a ponytail."""
+def towards(target: Any, *, reach_m: float = 0.02) -> Flow:
+    """To a point, as to the tie of a ponytail; it fades within `reach_m`, so that hair does not turn round there."""
     place = np.asarray(target, np.float64)
 
     def flow(points: Array) -> Array:
         way = place - points
-        return way / np.linalg.norm(way, axis=1, keepdims=True).clip(1e-9)
+        return way / np.linalg.norm(way, axis=1, keepdims=True).clip(reach_m)
 
     return flow
 
@@ -61,6 +61,19 @@ def off_the_face(*, z_m: float = 0.035, below_m: float = 0.03) -> Flow:
         x, y, z = points.T
         before = np.clip((z - z_m) / 0.02, 0, 1) * np.clip((below_m - y) / 0.03, 0, 1)
         return np.stack([np.sign(x) * before, np.zeros(len(x)), -before], axis=1)
+
+    return flow
+
+
+def around_the_shoulders(*, split_m: float = -0.005, below_m: float = -0.06) -> Flow:
+    """Before the shoulders or behind them, from the neck on: hair with z above `split_m` forwards, the rest back."""
+
+    def flow(points: Array) -> Array:
+        from_split = points[:, 2] - split_m
+        side = np.where(from_split > 0, 1.0, -1.0) * (0.15 + 0.55 * np.exp(-np.abs(from_split) / 0.03))
+        below = np.clip((below_m - points[:, 1]) / 0.03, 0, 1) * np.clip((points[:, 1] + 0.22) / 0.05, 0, 1)
+        zero = np.zeros(len(points))
+        return np.stack([zero, zero, side * below], axis=1)
 
     return flow
 

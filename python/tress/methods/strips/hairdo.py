@@ -11,11 +11,12 @@ from tress.edit.cover import cover
 from tress.edit.push_out import push_out
 from tress.methods.strips.bald_document import HEAD, bald_document
 from tress.methods.strips.edited import edited
-from tress.methods.strips.layers import HAIR
+from tress.methods.strips.layers import HAIR, OVER
 from tress.methods.strips.params import StripsParams
 from tress.methods.strips.presets.registry import preset_of
 from tress.model.atlas import Atlas
 from tress.model.document import Document
+from tress.model.group import Group
 from tress.model.recipe import Recipe, flat_parameters
 from tress.model.strip import Strip
 
@@ -58,6 +59,14 @@ def hairdo(
 
 
 def covered(document: Document, atlas: Atlas) -> Document:
-    """The document with all strips covered with the regions of an atlas, in turn."""
+    """The document with all strips covered with the regions of an atlas, in turn.
+
+    Atlases begin with their densest cards: those go to every layer but the outermost, which has them all.
+    """
     document = edited(document, add, records={ATLAS: atlas})
-    return edited(document, cover, names=[HAIR], atlas=ATLAS, regions=range(len(atlas.regions)))
+    count = len(atlas.regions)
+    for name, group in document.of_type(Group).items():
+        if group.parent == HAIR:
+            few = count if name == OVER else max(count // 2, 1)
+            document = edited(document, cover, names=[name], atlas=ATLAS, regions=range(few))
+    return document

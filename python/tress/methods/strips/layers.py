@@ -17,7 +17,7 @@ from tress.model.document import Document
 from tress.model.group import Group
 from tress.model.strip import Strip
 
-HAIR, PATTERN = "hair", "lock"
+HAIR, OVER, PATTERN = "hair", "over", "lock"
 
 
 def with_layer(

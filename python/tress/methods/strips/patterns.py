@@ -38,14 +38,14 @@ def lock(
 
 
 def waved(strip: Strip, *, height_m: float, waves: float, phase_rad: float = 0.0, from_share: float = 0.2) -> Strip:
-    """The strip in `waves` along its length, out of its plane and within it, from `from_share` on."""
+    """The strip in `waves` along its length, within its plane and half as high out of it, from `from_share` on."""
     points = strip.points.copy()
     length = points[..., 0].max()
     t = points[..., 0] / length
     height = height_m * smooth((t - from_share) / 0.3)
     angle = 2 * np.pi * waves * t + phase_rad
-    points[..., 1] += 0.8 * height * np.cos(angle)
-    points[..., 2] += height * np.sin(angle)
+    points[..., 1] += height * np.cos(angle)
+    points[..., 2] += 0.5 * height * np.sin(angle)
     return replace(strip, points=points)
 
 

@@ -4,6 +4,8 @@ from typing import Final
 
 from tress.render.style import Style
 from tress.render.styles.fibre import FibreStyle
+from tress.render.styles.gouraud import GouraudStyle
 from tress.render.styles.photo import PhotoStyle
+from tress.render.styles.textured import TexturedStyle
 
-STYLES: Final[tuple[type[Style], ...]] = (PhotoStyle, FibreStyle)
+STYLES: Final[tuple[type[Style], ...]] = (PhotoStyle, FibreStyle, GouraudStyle, TexturedStyle)

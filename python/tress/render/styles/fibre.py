@@ -9,12 +9,11 @@ from tress.base.params import Params, param
 from tress.render.fibre_scattering import Fibre, scattering
 from tress.render.flat_scene import tangents
 from tress.render.gbuffer import GBuffer, HairFragments, hair_fragments
+from tress.render.light import light_direction
 from tress.render.mesh_color import mesh_colors
 from tress.render.occlusion import light_transmittance, sky_visibility
 
 Array = np.ndarray[Any, Any]
-
-_UP = np.array([0.0, 1.0, 0.0])
 
 
 @dataclass(frozen=True)
@@ -41,12 +40,7 @@ class FibreStyle(Params):
 
     def towards_light(self, gbuffer: GBuffer) -> Array:
         """(3,) float64 unit direction of the light in the world."""
-        back = -gbuffer.away
-        right = np.cross(_UP, back)
-        right = right / np.linalg.norm(right) if np.linalg.norm(right) > 1e-6 else np.array([1.0, 0, 0])
-        up = np.cross(back, right)
-        level = np.cos(self.azimuth_rad) * back + np.sin(self.azimuth_rad) * right
-        return np.cos(self.elevation_rad) * level + np.sin(self.elevation_rad) * up
+        return light_direction(gbuffer, azimuth_rad=self.azimuth_rad, elevation_rad=self.elevation_rad)
 
     def _hair(self, gbuffer: GBuffer, hair: HairFragments) -> Array:
         if len(hair.index) == 0:

@@ -7,7 +7,7 @@ import numpy as np
 from tress.edit.variation import Variation
 from tress.methods.strips.bald_document import HEAD
 from tress.methods.strips.ending_at import bands_ending_at
-from tress.methods.strips.even_roots import EvenRoots, even_roots
+from tress.methods.strips.even_roots import EvenRoots, above_the_ears, even_roots
 from tress.methods.strips.flows import added, off_the_face, parted, steady
 from tress.methods.strips.layers import with_layer
 from tress.methods.strips.params import StripsParams
@@ -22,18 +22,18 @@ FALL = added(steady((0, -1, 0)), parted(0.0, back=0.3), off_the_face(z_m=0.05))
 FRINGE_FALL = steady((0, -1, 0.35))
 LINE_M = -0.105
 """Height of the cut."""
-LAYERS = (("under", 0.36, 0.040, 0.004), ("middle", 0.32, 0.034, 0.007), ("over", 0.14, 0.024, 0.009))
+LAYERS = (("under", 0.36, 0.036, 0.003), ("middle", 0.32, 0.028, 0.005), ("over", 0.20, 0.018, 0.007))
 """Group, share of the strips, width and lift in metres."""
-FRINGE, PARTING = 0.14, 0.06
+FRINGE, PARTING = 0.16, 0.09
 """Shares of the strips over the forehead, and on the line along which the hair falls apart behind it."""
-EVEN = Variation(turn_low=-0.1, turn_high=0.1, tilt_high=0.1, length_low=0.93, length_high=1.02)
+EVEN = Variation(turn_low=-0.1, turn_high=0.1, tilt_high=0.1, length_low=0.97, length_high=1.03)
 
 
 def bob(document: Document, params: StripsParams) -> Document:
     """Chin length with a fringe, the tips turned in."""
     mesh = surface_mesh(document, HEAD, where="A preset")
     for index, (name, share, width_m, lift_m) in enumerate(LAYERS):
-        roots = even_roots(mesh, count=params.count(share), seed=params.seed + index)
+        roots = even_roots(mesh, count=params.count(share), seed=params.seed + index, where=above_the_ears)
         document = with_layer(
             document,
             into=name,
@@ -48,14 +48,14 @@ def bob(document: Document, params: StripsParams) -> Document:
     document = with_layer(
         document,
         into="parting",
-        patterns=_cut(on_line, params, 0.022),
+        patterns=_cut(on_line, params, 0.018),
         flow=FALL,
         variation=EVEN,
         seed=params.seed + 900,
-        lift_m=0.009,
-        rise_m=0.04,
+        lift_m=0.006,
+        rise_m=0.06,
     )
-    fringe = lock(length_m=0.095 * params.length, width_m=0.018 * params.widening, tip_width=0.55)
+    fringe = lock(length_m=0.095 * params.length, width_m=0.02 * params.widening, tip_width=0.9)
     return with_layer(
         document,
         into="fringe",
@@ -75,7 +75,7 @@ def _cut(roots: EvenRoots, params: StripsParams, width_m: float) -> list[tuple[S
     return [
         (
             turned_in(
-                lock(length_m=length_m * params.length, width_m=width_m * params.widening, tip_width=0.5),
+                lock(length_m=length_m * params.length, width_m=width_m * params.widening, tip_width=0.85),
                 depth_m=0.08 * length_m,
             ),
             band,

@@ -5,26 +5,26 @@ import numpy as np
 from tress.edit.variation import Variation
 from tress.methods.strips.bald_document import HEAD
 from tress.methods.strips.even_roots import even_roots
-from tress.methods.strips.flows import added, off_the_face, parted, steady
+from tress.methods.strips.flows import added, around_the_shoulders, off_the_face, parted, steady
 from tress.methods.strips.layers import with_layer
 from tress.methods.strips.params import StripsParams
 from tress.methods.strips.patterns import lock
 from tress.model.attachment import surface_mesh
 from tress.model.document import Document
 
-FLOW = added(steady((0, -1, -0.04)), parted(0.0, back=0.3), off_the_face())
-LAYERS = (("under", 0.36, 0.040, 0.003), ("middle", 0.34, 0.032, 0.005), ("over", 0.22, 0.022, 0.008))
+FLOW = added(steady((0, -1, -0.04)), parted(0.0, back=0.3), off_the_face(), around_the_shoulders())
+LAYERS = (("under", 0.40, 0.036, 0.003), ("middle", 0.34, 0.028, 0.005), ("over", 0.26, 0.018, 0.007))
 """Group, share of the strips, width and lift in metres: wide strips close to the head, narrow ones over them."""
-PARTING = 0.08
+PARTING = 0.12
 """Share of the strips that stand on the parting line itself."""
-IRREGULAR = Variation(turn_low=-0.1, turn_high=0.1, tilt_high=0.1, length_low=0.8, length_high=1.05)
+IRREGULAR = Variation(turn_low=-0.1, turn_high=0.1, tilt_high=0.1, length_low=0.92, length_high=1.03)
 
 
 def long_straight(document: Document, params: StripsParams) -> Document:
     """Long and straight, parted in the middle."""
     mesh = surface_mesh(document, HEAD, where="A preset")
     for index, (name, share, width_m, lift_m) in enumerate(LAYERS):
-        pattern = lock(length_m=0.4 * params.length, width_m=width_m * params.widening, tip_width=0.3, rows=10)
+        pattern = lock(length_m=0.4 * params.length, width_m=width_m * params.widening, tip_width=0.7, rows=10)
         document = with_layer(
             document,
             into=name,
@@ -38,7 +38,7 @@ def long_straight(document: Document, params: StripsParams) -> Document:
     on_line = even_roots(
         mesh, count=params.count(PARTING), seed=params.seed, where=lambda points: np.abs(points[:, 0]) < 0.005
     )
-    pattern = lock(length_m=0.4 * params.length, width_m=0.02 * params.widening, tip_width=0.3, rows=10)
+    pattern = lock(length_m=0.4 * params.length, width_m=0.018 * params.widening, tip_width=0.7, rows=10)
     return with_layer(
         document,
         into="parting",
@@ -46,6 +46,6 @@ def long_straight(document: Document, params: StripsParams) -> Document:
         flow=FLOW,
         variation=IRREGULAR,
         seed=params.seed + 900,
-        lift_m=0.008,
-        rise_m=0.04,
+        lift_m=0.006,
+        rise_m=0.06,
     )

@@ -23,9 +23,9 @@ SWEPT = added(towards(TIE), steady((0, 0, -0.15)))
 RING_M = 0.02
 """Strips that are so much farther from the tie are as much longer."""
 TAIL = steady((0, -1, -0.02))
-LAYERS = (("under", 0.42, 0.024, 0.003), ("over", 0.30, 0.016, 0.005))
+LAYERS = (("under", 0.46, 0.024, 0.002), ("over", 0.30, 0.015, 0.004))
 """Group, share of the strips, width and lift in metres."""
-IN_TAIL = 0.28
+IN_TAIL = 0.3
 """Share of the strips in the tail."""
 
 
@@ -33,7 +33,7 @@ def ponytail(document: Document, params: StripsParams) -> Document:
     """Swept back to a tie, with a tail."""
     mesh = surface_mesh(document, HEAD, where="A preset")
     for index, (name, share, width_m, lift_m) in enumerate(LAYERS):
-        roots = even_roots(mesh, count=params.count(share), seed=params.seed + index, least_scalp=0.45)
+        roots = even_roots(mesh, count=params.count(share), seed=params.seed + index, least_scalp=0.5)
         document = with_layer(
             document,
             into=name,
@@ -44,7 +44,7 @@ def ponytail(document: Document, params: StripsParams) -> Document:
             lift_m=lift_m,
             bend_m=0.01,
         )
-    tail = lock(length_m=0.3 * params.length, width_m=0.026 * params.widening, root_width=0.5, tip_width=0.25, rows=12)
+    tail = lock(length_m=0.3 * params.length, width_m=0.026 * params.widening, root_width=0.5, tip_width=0.5, rows=12)
     return with_layer(
         document,
         into="tail",
@@ -70,7 +70,7 @@ def _to_tie(roots: EvenRoots, width_m: float) -> list[tuple[Strip, EvenRoots]]:
     ring = (np.linalg.norm(roots.points - TIE, axis=1) / RING_M).astype(np.int64)
     return [
         (
-            lock(length_m=1.2 * RING_M * (number + 0.6), width_m=width_m, root_width=0.55, tip_width=0.25),
+            lock(length_m=1.1 * RING_M * (number + 0.6), width_m=width_m, root_width=1.0, tip_width=0.25),
             roots.where(ring == number),
         )
         for number in np.unique(ring)

@@ -4,33 +4,37 @@ import numpy as np
 
 from tress.edit.variation import Variation
 from tress.methods.strips.bald_document import HEAD
-from tress.methods.strips.even_roots import even_roots
+from tress.methods.strips.even_roots import EvenRoots, even_roots
 from tress.methods.strips.flows import added, steady, whorl
 from tress.methods.strips.layers import with_layer
 from tress.methods.strips.params import StripsParams
 from tress.methods.strips.patterns import lock
 from tress.model.attachment import surface_mesh
 from tress.model.document import Document
+from tress.model.strip import Strip
 
 CROWN = (0.012, 0.085, -0.055)
+BEFORE_CROWN, OVER_CROWN = (0.012, 0.098, -0.030), steady((-0.2, -0.8, -0.6))
+"""Where the strips begin that lie over the middle of the whorl, and their way."""
 FLOW = added(steady((0, -0.6, 0.12)), whorl(CROWN, swirl=0.3, reach_m=0.09))
-LAYERS = (("under", 0.55, 0.032, 0.028, 0.002), ("over", 0.70, 0.042, 0.018, 0.005))
+LAYERS = (("under", 0.60, 0.045, 0.022, 0.002), ("over", 0.60, 0.050, 0.013, 0.004))
 """Group, share of the strips, length, width and lift in metres."""
-AT_CROWN = 0.07
-"""Share of the strips that close the middle of the whorl."""
-IRREGULAR = Variation(turn_low=-0.3, turn_high=0.3, tilt_high=0.35, length_low=0.7, length_high=1.2)
+BELOW_M, SHORTER = (0.05, 0.01, -0.03), (1.0, 0.85, 0.65, 0.5)
+"""Heights below which hair is cut shorter, and to which share, from the top to the nape."""
+AT_CROWN = 0.08
+"""Share of the strips over the middle of the whorl."""
+IRREGULAR = Variation(turn_low=-0.25, turn_high=0.25, tilt_high=0.12, length_low=0.75, length_high=1.15)
 
 
 def short_crop(document: Document, params: StripsParams) -> Document:
     """Short all round, out of a whorl at the crown."""
     mesh = surface_mesh(document, HEAD, where="A preset")
     for index, (name, share, length_m, width_m, lift_m) in enumerate(LAYERS):
-        pattern = lock(length_m=length_m * params.length, width_m=width_m * params.widening, tip_width=0.2, rows=5)
-        roots = even_roots(mesh, count=params.count(share), seed=params.seed + index, least_scalp=0.3)
+        roots = even_roots(mesh, count=params.count(share), seed=params.seed + index, least_scalp=0.5)
         document = with_layer(
             document,
             into=name,
-            patterns=[(pattern, roots)],
+            patterns=_tapered(roots, params, length_m, width_m),
             flow=FLOW,
             variation=IRREGULAR,
             seed=params.seed + 100 * index,
@@ -41,17 +45,35 @@ def short_crop(document: Document, params: StripsParams) -> Document:
         mesh,
         count=params.count(AT_CROWN),
         seed=params.seed,
-        where=lambda points: np.linalg.norm(points - CROWN, axis=1) < 0.022,
+        where=lambda points: np.linalg.norm(points - BEFORE_CROWN, axis=1) < 0.025,
     )
     return with_layer(
         document,
         into="crown",
         patterns=[
-            (lock(length_m=0.04 * params.length, width_m=0.02 * params.widening, tip_width=0.2, rows=5), at_crown)
+            (lock(length_m=0.045 * params.length, width_m=0.014 * params.widening, tip_width=0.7, rows=6), at_crown)
         ],
-        flow=FLOW,
+        flow=OVER_CROWN,
         variation=IRREGULAR,
         seed=params.seed + 900,
         lift_m=0.004,
         bend_m=0.015,
     )
+
+
+def _tapered(roots: EvenRoots, params: StripsParams, length_m: float, width_m: float) -> list[tuple[Strip, EvenRoots]]:
+    """Shorter strips the lower the roots."""
+    step = sum((roots.points[:, 1] < height).astype(np.int64) for height in BELOW_M)
+    return [
+        (
+            lock(
+                length_m=share * length_m * params.length,
+                width_m=width_m * params.widening,
+                tip_width=0.7,
+                rows=6,
+            ),
+            roots.where(step == number),
+        )
+        for number, share in enumerate(SHORTER)
+        if (step == number).any()
+    ]
