@@ -31,7 +31,7 @@ Array = np.ndarray[Any, Any]
 SIDE, EXTENT_M = 24, 1.2
 SOIL, GRASS, LEAF = (0.03, 0.05, 0.012), (0.06, 0.17, 0.02), (0.16, 0.24, 0.03)
 SKY = np.array([0.45, 0.62, 0.85], np.float32)
-WIDTH, HEIGHT, PX_PER_METRE, SLOPE_RAD = 900, 560, 560.0, 0.42
+WIDTH, HEIGHT, PX_PER_METRE, SLOPE_RAD = 900, 560, 840.0, 0.42
 
 
 def terrain() -> Mesh:
@@ -103,7 +103,7 @@ def picture(document: Document) -> Array:
         "leaves": colored(document, "leaves", LEAF, 2),
     }
     cos, sin, scale = np.cos(SLOPE_RAD), np.sin(SLOPE_RAD), PX_PER_METRE
-    camera = np.array([[scale, 0, 0, WIDTH / 2], [0, -scale * cos, scale * sin, 0.55 * HEIGHT], [0, 0, 0, 1]])
+    camera = np.array([[scale, 0, 0, WIDTH / 2], [0, -scale * cos, scale * sin, 0.6 * HEIGHT], [0, 0, 0, 1]])
     seen = rasterise(flat_scene(Scene(meshes=meshes)), xy_from_world=camera, width=WIDTH, height=HEIGHT)
     return srgb_rgb(premultiplied_rgba(seen, style=PhotoStyle()), background=SKY)
 

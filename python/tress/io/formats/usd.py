@@ -17,7 +17,6 @@ from tress.io.usd.prim import Prim
 from tress.io.usd.shown import shown_prims
 from tress.io.usd.stage import SUFFIXES, pictures_of, read_stage, write_stage, written_by_tress
 from tress.model.document import Document
-from tress.model.record import Record
 
 LAYOUT = 1  # of the prims; raised when a reader of the former could misread them
 
@@ -29,13 +28,14 @@ def save_document(document: Document, path: Path) -> None:
     """
     if path.suffix not in SUFFIXES:
         raise InputError(f"{path.name} has suffix {path.suffix!r}; one of {', '.join(SUFFIXES)} was expected.")
-    prims = [_shown(prim_of(name, record), record, document) for name, record in document.records.items()]
+    shown = shown_prims(document)
+    prims = [_with(prim_of(name, record), shown.get(name, ())) for name, record in document.records.items()]
     write_stage(prims, path, data={"layout": LAYOUT, "version": __version__})
 
 
-def _shown(prim: Prim, record: Record, document: Document) -> Prim:
+def _with(prim: Prim, shown: tuple[Prim, ...]) -> Prim:
     """The prim of a record with what there is to see of it in its document."""
-    return replace(prim, children=prim.children + shown_prims(prim.name, record, document))
+    return replace(prim, children=prim.children + shown)
 
 
 def open_document(path: Path) -> Document:

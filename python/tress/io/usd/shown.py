@@ -4,7 +4,7 @@ A strip's own prim holds its record; within it lie the patch in the head frame, 
 mesh. A group's prim holds one mesh of its strips. None of it is read back.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -18,7 +18,6 @@ from tress.io.usd.surface import mesh_prim
 from tress.model.document import Document
 from tress.model.group import Group, lineage
 from tress.model.keyframes import Keyframes
-from tress.model.record import Record
 from tress.model.strip import Strip
 from tress.model.strip_grid import strip_grid
 from tress.model.strip_mesh import strips_mesh
@@ -31,44 +30,74 @@ MOST_SAMPLES = 240  # ten seconds; longer motions are sampled more sparsely
 INVISIBLE = {"visibility": Attribute("token", "invisible")}
 
 
-def shown_prims(name: str, record: Record, document: Document) -> tuple[Prim, ...]:
-    """The prims that show the record `name` of a document; empty for records that show themselves."""
-    shown = SHOWN.get(type(record))
-    return shown(name, record, document) if shown else ()
+def shown_prims(document: Document) -> Mapping[str, tuple[Prim, ...]]:
+    """The prims that show the strips and groups of a document, by their names; other records show themselves.
+
+    Strips that are sampled at the same times are posed together: 300 moving strips take as long as a few.
+    """
+    times = _times_of_strips(document)
+    return {**_strip_prims(document, times), **_group_prims(document, times)}
 
 
 def sample_times(document: Document, *, group: str, strip: str = "") -> list[float]:
     """The times (seconds) at which a strip of `group`, or the group, is sampled: every frame, and every keyframe."""
     targets = {strip, *lineage(document, group)}
-    moving = [item for item in document.of_type(Keyframes).values() if item.target in targets]
+    return list(_frames([item for item in document.of_type(Keyframes).values() if item.target in targets]))
+
+
+def _times_of_strips(document: Document) -> dict[str, tuple[float, ...]]:
+    """`sample_times` of all strips."""
+    moving: dict[str, list[Keyframes]] = {}
+    for item in document.of_type(Keyframes).values():
+        moving.setdefault(item.target, []).append(item)
+    strips = document.of_type(Strip)
+    targets = {group: lineage(document, group) for group in {strip.group for strip in strips.values()}}
+    return {
+        name: _frames([item for target in (name, *targets[strip.group]) for item in moving.get(target, ())])
+        for name, strip in strips.items()
+    }
+
+
+def _frames(moving: list[Keyframes]) -> tuple[float, ...]:
     if not moving:
-        return []
+        return ()
     moments = np.concatenate([item.times for item in moving])
     first, last = np.floor(moments.min() * FRAMES_PER_SECOND), np.ceil(moments.max() * FRAMES_PER_SECOND)
     frames = np.linspace(first, last, int(min(last - first + 1, MOST_SAMPLES))) / FRAMES_PER_SECOND
-    return np.unique(np.concatenate([frames, moments])).tolist()
+    return tuple(np.unique(np.concatenate([frames, moments])).tolist())
 
 
-def _strip_prims(name: str, strip: Strip, document: Document) -> tuple[Prim, ...]:
-    strips = strip_set(document, [name])
-    times = sample_times(document, group=strip.group, strip=name)
-    samples = {time: strips.nets(posed_points(strips, time))[0] for time in times}
-    patch = patch_prim("patch", strip, strips.nets(posed_points(strips))[0], samples=samples)
-    if name not in visible_strips(document, group=strip.group):
-        patch = replace(patch, attributes={**patch.attributes, **INVISIBLE})
-        return (patch,)
-    return (patch,) if strip.group else (patch, _mesh_prim(document, [name], times))
+def _strip_prims(document: Document, times: Mapping[str, tuple[float, ...]]) -> dict[str, tuple[Prim, ...]]:
+    groups = {strip.group for strip in document.of_type(Strip).values()}
+    seen = {name for group in groups for name in visible_strips(document, group=group)}
+    together: dict[tuple[float, ...], list[str]] = {}
+    for name, moments in times.items():
+        together.setdefault(moments, []).append(name)
+    prims: dict[str, tuple[Prim, ...]] = {}
+    for moments, names in together.items():
+        strips = strip_set(document, names)
+        rest = strips.nets(posed_points(strips))
+        posed = {time: strips.nets(posed_points(strips, time)) for time in moments}
+        for index, (name, strip) in enumerate(zip(names, strips.records, strict=True)):
+            samples = {time: nets[index] for time, nets in posed.items()}
+            patch = patch_prim("patch", strip, rest[index], samples=samples)
+            if name not in seen:
+                patch = replace(patch, attributes={**patch.attributes, **INVISIBLE})
+            alone = name in seen and not strip.group
+            prims[name] = (patch, _mesh_prim(document, [name], moments)) if alone else (patch,)
+    return prims
 
 
-def _group_prims(name: str, _: Group, document: Document) -> tuple[Prim, ...]:
-    names = visible_strips(document, group=name)
-    if not names:
-        return ()
-    moving = {time for strip in names for time in sample_times(document, group=name, strip=strip)}
-    return (_mesh_prim(document, names, sorted(moving)),)
+def _group_prims(document: Document, times: Mapping[str, tuple[float, ...]]) -> dict[str, tuple[Prim, ...]]:
+    prims: dict[str, tuple[Prim, ...]] = {}
+    for group in document.of_type(Group):
+        names = visible_strips(document, group=group)
+        if names:
+            prims[group] = (_mesh_prim(document, names, sorted({time for name in names for time in times[name]})),)
+    return prims
 
 
-def _mesh_prim(document: Document, names: list[str], times: list[float]) -> Prim:
+def _mesh_prim(document: Document, names: list[str], times: Iterable[float]) -> Prim:
     prim = mesh_prim("mesh", strips_mesh(document, names=names))
     strips = strip_set(document, names)
     grid = strip_grid(strips.records)
@@ -81,9 +110,3 @@ def _mesh_prim(document: Document, names: list[str], times: list[float]) -> Prim
         "extent": replace(prim.attributes["extent"], samples=boxes),
     }
     return replace(prim, attributes=attributes, data={})
-
-
-SHOWN: Mapping[type[Record], Callable[[str, Any, Document], tuple[Prim, ...]]] = {
-    Strip: _strip_prims,
-    Group: _group_prims,
-}

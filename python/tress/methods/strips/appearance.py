@@ -67,8 +67,20 @@ def preview(document: Document, *, color: Color = BROWN, style: Style | None = N
     shown = style or TexturedStyle()
     scene = prepared(strips_scene(document, color=color, textured=shown.name != "gouraud"))
     camera = framed(scene, width=round(0.72 * height), height=height)
-    pictures = [_picture(scene, _seen_from(camera, scene, *map(math.radians, angles)), shown) for _, *angles in VIEWS]
+    pictures = [
+        view(scene, camera, style=shown, azimuth_rad=math.radians(azimuth), elevation_rad=math.radians(elevation))
+        for _, azimuth, elevation in VIEWS
+    ]
     return contact_sheet(pictures, captions=[name for name, *_ in VIEWS], height=height)
+
+
+def view(
+    scene: FlatScene, camera: Camera, *, style: Style, azimuth_rad: float = 0.0, elevation_rad: float = 0.0
+) -> Array:
+    """(H, W, 3) uint8: what a camera sees that goes around the head to its left, and above it."""
+    place = _seen_from(camera, scene, azimuth_rad, elevation_rad)
+    seen = rasterise(scene, xy_from_world=place.xy_from_world, width=place.width, height=place.height)
+    return srgb_rgb(premultiplied_rgba(seen, style=style), background=BACKDROP)
 
 
 def _seen_from(camera: Camera, scene: FlatScene, azimuth_rad: float, elevation_rad: float) -> Camera:
@@ -80,11 +92,6 @@ def _seen_from(camera: Camera, scene: FlatScene, azimuth_rad: float, elevation_r
     tilt[1:3, 1:3] = [[cos, -sin], [sin, cos]]
     tilt[:3, 3] = middle - tilt[:3, :3] @ middle
     return Camera(xy_from_world=view.xy_from_world @ tilt, width=view.width, height=view.height)
-
-
-def _picture(scene: FlatScene, camera: Camera, style: Style) -> Array:
-    seen = rasterise(scene, xy_from_world=camera.xy_from_world, width=camera.width, height=camera.height)
-    return srgb_rgb(premultiplied_rgba(seen, style=style), background=BACKDROP)
 
 
 def _maps(document: Document, names: list[str]) -> dict[str, Array]:

@@ -9,19 +9,18 @@ import numpy as np
 
 from tress.base.params import Params, param
 from tress.base.report import Report
-from tress.methods.strips.appearance import BROWN, Color, gouraud_scene
+from tress.methods.strips.appearance import BROWN, Color, strips_scene
 from tress.methods.strips.bald_document import HEAD
 from tress.model.camera import Camera
 from tress.model.document import Document
 from tress.model.evaluate import Scene
 from tress.model.keyframes import Keyframes
-from tress.model.posed import posed
 from tress.model.strands import Strands
 from tress.render.flat_scene import flat_scene
 from tress.render.gbuffer import rasterise
 from tress.render.picture import premultiplied_rgba, srgb_rgb
 from tress.render.preview import contact_sheet
-from tress.render.styles.photo import PhotoStyle
+from tress.render.styles.gouraud import GouraudStyle
 from tress.render.turntable import BACKDROP
 from tress.render.views import framed, pivot, turned
 
@@ -91,16 +90,17 @@ def _standing(document: Document, width: int, height: int, color: Color) -> tupl
     """A camera that keeps the hair in the picture at all moments, and what to turn about."""
     begin, end = motion_span(document)
     scenes = [
-        gouraud_scene(posed(document, begin + (end - begin) * share), color=color) for share in (0, 0.25, 0.5, 0.75)
+        strips_scene(document, color=color, time=begin + (end - begin) * share, textured=False)
+        for share in (0, 0.25, 0.5, 0.75)
     ]
-    hair = np.concatenate([mesh.positions for scene in scenes for name, mesh in scene.meshes.items() if name != HEAD])
-    head = {name: mesh for name, mesh in scenes[0].meshes.items() if name == HEAD}
+    head = scenes[0].meshes[0]
+    hair = np.concatenate([scene.positions[len(head.positions) :] for scene in scenes])
     line = {"hair": Strands(points=hair, offsets=np.array([0, len(hair)]))} if len(hair) else {}
-    framing = flat_scene(Scene(strands=line, meshes=head))
+    framing = flat_scene(Scene(strands=line, meshes={HEAD: head}))
     return framed(framing, width=width, height=height), pivot(framing)
 
 
 def _frame(document: Document, time: float, view: Camera, color: Color) -> Array:
-    scene = flat_scene(gouraud_scene(posed(document, time), color=color))
+    scene = strips_scene(document, color=color, time=time, textured=False)
     seen = rasterise(scene, xy_from_world=view.xy_from_world, width=view.width, height=view.height)
-    return srgb_rgb(premultiplied_rgba(seen, style=PhotoStyle()), background=BACKDROP)
+    return srgb_rgb(premultiplied_rgba(seen, style=GouraudStyle()), background=BACKDROP)

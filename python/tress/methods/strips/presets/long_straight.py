@@ -4,7 +4,7 @@ import numpy as np
 
 from tress.edit.variation import Variation
 from tress.methods.strips.bald_document import HEAD
-from tress.methods.strips.even_roots import even_roots
+from tress.methods.strips.even_roots import above_the_ears, even_roots
 from tress.methods.strips.flows import added, around_the_shoulders, off_the_face, parted, steady
 from tress.methods.strips.layers import with_layer
 from tress.methods.strips.params import StripsParams
@@ -25,10 +25,11 @@ def long_straight(document: Document, params: StripsParams) -> Document:
     mesh = surface_mesh(document, HEAD, where="A preset")
     for index, (name, share, width_m, lift_m) in enumerate(LAYERS):
         pattern = lock(length_m=0.4 * params.length, width_m=width_m * params.widening, tip_width=0.7, rows=10)
+        roots = even_roots(mesh, count=params.count(share), seed=params.seed + index, where=above_the_ears)
         document = with_layer(
             document,
             into=name,
-            patterns=[(pattern, even_roots(mesh, count=params.count(share), seed=params.seed + index))],
+            patterns=[(pattern, roots)],
             flow=FLOW,
             variation=IRREGULAR,
             seed=params.seed + 100 * index,

@@ -63,7 +63,7 @@ def short_crop(document: Document, params: StripsParams) -> Document:
 
 def _tapered(roots: EvenRoots, params: StripsParams, length_m: float, width_m: float) -> list[tuple[Strip, EvenRoots]]:
     """Shorter strips the lower the roots."""
-    step = sum((roots.points[:, 1] < height).astype(np.int64) for height in BELOW_M)
+    step = (roots.points[:, 1, None] < BELOW_M).sum(axis=1)
     return [
         (
             lock(

@@ -6,7 +6,7 @@ import numpy as np
 
 from tress.edit.variation import Variation
 from tress.methods.strips.bald_document import HEAD
-from tress.methods.strips.even_roots import EvenRoots, even_roots
+from tress.methods.strips.even_roots import EvenRoots, above_the_ears, even_roots
 from tress.methods.strips.flows import added, around_the_shoulders, off_the_face, parted, steady
 from tress.methods.strips.layers import with_layer
 from tress.methods.strips.params import StripsParams
@@ -32,7 +32,7 @@ def wavy_shoulder(document: Document, params: StripsParams) -> Document:
     """Waves to the shoulders, parted off the middle."""
     mesh = surface_mesh(document, HEAD, where="A preset")
     for index, (name, share, width_m, lift_m) in enumerate(LAYERS):
-        roots = even_roots(mesh, count=params.count(share), seed=params.seed + index)
+        roots = even_roots(mesh, count=params.count(share), seed=params.seed + index, where=above_the_ears)
         document = with_layer(
             document,
             into=name,
