@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.table import Table
 from skimage import data
 
-from benches import bench_depth, bench_formats, bench_gabor, bench_matte, bench_nurbs, bench_raster
+from benches import bench_depth, bench_formats, bench_gabor, bench_matte, bench_motion, bench_nurbs, bench_raster
 from tress.base.report import Report
 from tress.methods.portrait.pipeline import reconstruct
 
@@ -62,6 +62,7 @@ BENCHES: dict[str, Callable[[], None]] = {
     "raster": bench_raster.main,
     "formats": bench_formats.main,
     "nurbs": bench_nurbs.main,
+    "motion": bench_motion.main,
 }
 
 if __name__ == "__main__":
