@@ -55,7 +55,7 @@ impl Grid {
         let (mut u, mut v) = (Axis::new(surface.u()), Axis::new(surface.v()));
         loop {
             let mut grid = Self { u: u.lines(), v: v.lines(), error: None };
-            let (errors, columns) = grid.cell_errors(surface, projection)?;
+            let (errors, columns) = grid.cell_errors(surface, accuracy, projection)?;
             let error = errors.iter().fold(0.0, |worst: f64, cell| worst.max(cell.total));
             grid.error = Some(error);
             if error <= accuracy {
@@ -76,22 +76,27 @@ impl Grid {
     /// # Errors
     /// Control points behind the camera of a projection.
     pub fn chord_error(&self, surface: &Surface, projection: Option<DMat4>) -> Result<f64, NurbsError> {
-        let (errors, _) = self.cell_errors(surface, projection)?;
+        let (errors, _) = self.cell_errors(surface, f64::INFINITY, projection)?;
         Ok(errors.iter().fold(0.0, |worst, cell| cell.total.max(worst)))
     }
 
-    fn cell_errors(&self, surface: &Surface, projection: Option<DMat4>) -> Result<(Vec<CellError>, usize), NurbsError> {
+    fn cell_errors(
+        &self,
+        surface: &Surface,
+        enough: f64,
+        projection: Option<DMat4>,
+    ) -> Result<(Vec<CellError>, usize), NurbsError> {
         let u = Lines::new(surface.u(), self.u.clone())?;
         let v = Lines::new(surface.v(), self.v.clone())?;
         let net = Net::new(surface, &u, &v)?;
         let errors = match projection {
-            None => cell_errors(&net, &u, &v, |p| p),
+            None => cell_errors(&net, &u, &v, enough, |p| p),
             Some(matrix) => {
                 let seen = |p: DVec4| (matrix * p).with_z(0.0);
                 if net.points.iter().any(|&p| seen(p).w <= 0.0) {
                     return Err(NurbsError::BehindCamera);
                 }
-                cell_errors(&net, &u, &v, seen)
+                cell_errors(&net, &u, &v, enough, seen)
             }
         };
         Ok((errors, v.intervals()))
