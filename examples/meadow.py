@@ -103,7 +103,7 @@ def picture(document: Document) -> Array:
         "leaves": colored(document, "leaves", LEAF, 2),
     }
     cos, sin, scale = np.cos(SLOPE_RAD), np.sin(SLOPE_RAD), PX_PER_METRE
-    camera = np.array([[scale, 0, 0, WIDTH / 2], [0, -scale * cos, scale * sin, 0.6 * HEIGHT], [0, 0, 0, 1]])
+    camera = np.array([[scale, 0, 0, WIDTH / 2], [0, -scale * cos, scale * sin, 0.66 * HEIGHT], [0, 0, 0, 1]])
     seen = rasterise(flat_scene(Scene(meshes=meshes)), xy_from_world=camera, width=WIDTH, height=HEIGHT)
     return srgb_rgb(premultiplied_rgba(seen, style=PhotoStyle()), background=SKY)
 
