@@ -7,6 +7,7 @@ from methods.small_head import (
     SCALE,
     SIZE,
     ball,
+    curves,
     long_alpha,
     small_depths,
     small_hair,
@@ -16,7 +17,9 @@ from methods.small_head import (
 from scipy.spatial import KDTree
 
 from tress.base.report import Report
+from tress.methods.portrait.behind_body import behind_shoulders
 from tress.methods.portrait.box import Box
+from tress.methods.portrait.depth import depth
 from tress.methods.portrait.hanging import hanging_edge
 from tress.methods.portrait.sweep import swept
 
@@ -120,6 +123,23 @@ def test_long_hair_does_not_end_in_a_straight_cut(long):
     behind = tips[~long.visible & (tips[:, 2] < 0) & (tips[:, 1] < -0.05), 1]
     assert len(behind) > 100
     assert np.subtract(*np.percentile(behind, [90, 10])) > 0.02
+
+
+def test_hair_that_meets_a_shoulder_goes_on_behind_it():
+    alpha = long_alpha()
+    y = (SIZE / 2 - (np.mgrid[:SIZE, :SIZE] + 0.5)[0]) / SCALE
+    x = ((np.mgrid[:SIZE, :SIZE] + 0.5)[1] - SIZE / 2) / SCALE
+    shoulder = (np.abs(x) > 0.094) & (y < -0.04)
+    shown = np.where(shoulder, 0.0, alpha).astype(np.float32)
+    depths = depth(curves(), head=ball(), alpha=shown, solid=solid_pixels(shown) | shoulder, report=Report())
+    envelope = depths.envelope
+    row, column = (int(np.abs(axis - at).argmin()) for axis, at in ((envelope.box.y, -0.08), (envelope.box.x, 0.097)))
+    assert not envelope.hair[row, column]
+    assert envelope.extended[row, column]
+    foremost = behind_shoulders(envelope, envelope.front)[:, column]
+    below = np.flatnonzero(np.isfinite(foremost))
+    assert len(below) > 10
+    assert (np.diff(foremost[below]) < 0).all()
 
 
 def box() -> Box:

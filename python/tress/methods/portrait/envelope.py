@@ -37,6 +37,10 @@ RESTING = 0.008
 """Metres between the skin and the surface of hair that lies on it."""
 CROWN_RADIUS = 0.13
 """Metres: radius with which hair turns down behind its highest place."""
+FALLS_FROM = 0.04
+"""Metres of hair straight above a shoulder from which it goes on behind it: a lock that lies across it does not."""
+FROM_NAPE = 0.02
+"""Metres above the nape where hair that meets a shoulder goes on behind it."""
 CROWN = 0.012
 """Metres below its top from which the front of the hair leaves the roundness of the crown."""
 LEAVES = 4.0
@@ -171,7 +175,7 @@ def envelope(hair: Array, solid: Array, *, head: SolidHead, box: Box, xy_from_vi
     front = _smooth(hung, hair_here)
     front = np.fmax(front, head.front + 0.4 * RESTING)
     edge = hanging_edge(hair_here, nape=head.nape, middle=_middle(head, box), box=box)
-    extended = _extended(hair_here, hidden, head, edge, box)
+    extended = _extended(hair_here, hidden, head, edge, box) | _falling(hair_here, bare, head, edge, box)
     behind = np.maximum(np.maximum(_harmonic(gap + GRAZE, extended, outline), gap + GRAZE / 2), LEAST)
     back = _surface(reach, behind, box, from_front=False)
     mid = np.clip(_harmonic(nearest, extended, outline), back, np.where(hair_here, front, np.inf))
@@ -257,6 +261,18 @@ def _extended(hair: Array, hidden: Array, head: SolidHead, edge: Array, box: Box
     between = (left & right) | (head.seen & (left | right))
     above = box.y[:, None] >= edge
     return hair | (head.seen & (box.y >= head.nape)[:, None]) | (between & hidden & above)
+
+
+def _falling(hair: Array, bare: Array, head: SolidHead, edge: Array, box: Box) -> Array:
+    """Where hair goes on behind a shoulder: below hair that hangs, as far as body hides it, down to the `edge` (C,)."""
+    hides = bare & ~head.seen & (box.y[:, None] >= edge)
+    long = np.zeros(hair.shape, np.int64)
+    for row in range(1, len(long)):
+        long[row] = (long[row - 1] + 1) * hair[row]
+    falling = np.logical_and(long * box.size > FALLS_FROM, box.y[:, None] < head.nape + FROM_NAPE)
+    for row in range(1, len(falling)):
+        falling[row] |= falling[row - 1] & hides[row]
+    return falling & hides
 
 
 def _at_depth(distance: Array, z: Array, box: Box) -> Array:

@@ -22,8 +22,8 @@ LEAN = 0.8
 AHEAD = 0.2
 """Cosine between the way to the hairline and the front from which it is that of the face."""
 
-BEHIND = 0.03
-"""Metres behind the head's centre by which the hairline is that of the nape."""
+BEHIND = 0.09
+"""Metres behind the head's centre by which the hairline is that of the middle of the nape."""
 
 
 def swept(skin: Skin, inside: Array, short: Array, *, backward: Array, box: Box) -> Array:

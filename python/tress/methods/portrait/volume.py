@@ -13,15 +13,16 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy.ndimage import binary_dilation, gaussian_filter, minimum_filter
+from scipy.ndimage import binary_dilation, gaussian_filter
 
 from tress.base.parallel import together
 from tress.base.params import Params, param
 from tress.base.report import Report
 from tress.kernel import fields
+from tress.methods.portrait.behind_body import behind_head, behind_shoulders, over_bust
 from tress.methods.portrait.box import Box
 from tress.methods.portrait.depth import StrandDepths, Traced
-from tress.methods.portrait.envelope import Envelope, Head, SolidHead
+from tress.methods.portrait.envelope import Envelope, Head
 from tress.methods.portrait.flow import FlowParams, HairFlow, hair_flow
 from tress.methods.portrait.resample_picture import columns_from_pixels, pixels_from_columns, spread
 from tress.methods.portrait.scalp_layer import BEARING
@@ -30,21 +31,8 @@ from tress.methods.portrait.waves import LOCK, waves, waviness
 
 Array = np.ndarray[Any, Any]
 
-
-BODY_GAP = 0.01
-"""Metres between the back of the neck and hair behind the body."""
-BUST_GAP = 0.004
-"""Metres between the back of the bust and hair that falls over it."""
-ROUND_BUST = 7
-"""Columns and rows over which the bust's back is taken at its rearmost."""
-SWING = 0.6
-"""Slope with which hair swings back over the bust."""
 OVER_BUST = 0.012
 """Metres of hair at least that fall over the bust."""
-NECK = 0.05
-"""Metres below the nape over which the neck is trusted."""
-
-
 THIN = 0.004
 """Metres of hair on the skin that the roundness of the crown leaves."""
 OVER_SKIN = 0.015
@@ -53,7 +41,7 @@ SEEN = 0.010
 """Metres of hair behind what is seen that may lie over bare skin."""
 BESIDE_HEAD = 2
 """Columns beside the head into which hair on its skin may reach."""
-HANGING = 0.01
+HANGING = 0.002
 """Metres below the nape from which hair counts as long."""
 TRACED_SHARE = 1.5
 """Length of short hair for the length of the strands that can be followed in the photo, nine in ten of them shorter."""
@@ -61,7 +49,6 @@ SHORTEST = 0.018
 """Metres that short hair is long at least."""
 THICK_TO_LONG = 5.0
 """Length of short hair for the thickness of its layer."""
-
 WAVES_FROM = 0.012
 """Metres behind the visible surface from which hidden hair has waves of its own."""
 
@@ -229,10 +216,9 @@ def _filled(surface: Envelope, front: Array, params: VolumeParams) -> tuple[Arra
     box, head = surface.box, surface.head
     z = box.z[:, None, None]
     shown = surface.hair & (z <= front + 0.5 * box.size)
-    foremost = _behind_head(head, box)
-    behind = z <= foremost
+    behind = z <= np.maximum(behind_head(head, box), behind_shoulders(surface, front))
     hangs = _hangs(surface)
-    back = np.where(hangs, np.minimum(surface.back, _over_bust(head, box) - OVER_BUST), surface.back)
+    back = np.where(hangs, np.minimum(surface.back, over_bust(head, box) - OVER_BUST), surface.back)
     long = surface.extended & hangs
     between = (z >= back) & ((shown & ((z >= surface.mid) | ~head.seen)) | (long & behind & (shown | ~surface.hair)))
     round_crown = (z >= surface.mid - surface.dome) | ~surface.extended | (head.distance <= THIN)
@@ -279,30 +265,6 @@ def _on_scalp(surface: Envelope) -> Array:
 def _hangs(surface: Envelope) -> Array:
     """(R, C) bool: where hidden hair may be that does not lie on the scalp, since it is long and falls."""
     return _hangs_at(surface) & (surface.box.y[:, None] >= surface.edge)
-
-
-def _behind_head(head: SolidHead, box: Box) -> Array:
-    """(R, C) metres: the foremost that hidden hair may be: the head's back; below the nape, the back of the neck.
-
-    The bust that ends the head's mesh says nothing of the body: its open columns have no back. Hair that falls from
-    above passes behind what of it stands out further.
-    """
-    neck = head.back[(box.y < head.nape) & (box.y > head.nape - NECK)]
-    behind = float(np.nanmin(neck)) - BODY_GAP if np.isfinite(neck).any() else 0.0
-    above = head.seen & (box.y >= head.nape - NECK)[:, None]
-    return np.where(above, head.back, np.minimum(_over_bust(head, box), behind))
-
-
-def _over_bust(head: SolidHead, box: Box) -> Array:
-    """(R, C) metres: the foremost of hair that falls over the back of neck and bust; far before both where it does
-    not touch them. Above where it touches it swings back by and by.
-    """
-    below = (box.y < head.nape)[:, None]
-    rearmost = minimum_filter(np.where(below & head.seen, head.back, np.inf), size=ROUND_BUST)
-    over = np.minimum.accumulate(rearmost, axis=0) - BUST_GAP
-    for row in range(len(over) - 2, -1, -1):
-        over[row] = np.minimum(over[row], over[row + 1] + SWING * box.size)
-    return over
 
 
 def _layers(depth_m: Array, head_distance: Array, inside: Array) -> tuple[Array, Array]:
