@@ -7,6 +7,7 @@ import numpy as np
 from tress.base.report import Report
 from tress.methods.portrait.depth import StrandDepths, depth
 from tress.methods.portrait.grow import GrownHair, GrowParams, grow
+from tress.methods.portrait.inside_outline import SOLID_ALPHA
 from tress.methods.portrait.volume import HairVolume, volume
 
 RADIUS = 0.09
@@ -113,10 +114,12 @@ def small_volume(alpha: np.ndarray | None = None) -> HairVolume:
 def small_hair(volume_: HairVolume, report: Report, seed: int = 0, alpha: np.ndarray | None = None) -> GrownHair:
     """Some strands of the cap."""
     color = np.full((SIZE, SIZE, 3), 0.2, np.float32)
+    shown = hair_alpha() if alpha is None else alpha
     return grow(
         volume_,
         foreground=color,
-        alpha=hair_alpha() if alpha is None else alpha,
+        alpha=shown,
+        before=(shown > SOLID_ALPHA) | solid_pixels(alpha),
         head=ball(),
         params=GrowParams(count=3000),
         seed=seed,

@@ -51,6 +51,16 @@ def test_points_that_do_not_show_keep_their_colours():
     assert not np.array_equal(colors[:240], start[:240])
 
 
+def test_points_without_freedom_keep_their_colours_and_the_others_make_up_for_them():
+    gbuffer = drawn([fringe(radius=5e-4, points=60, alpha=0.8)])
+    start, weight = gbuffer.scene.color, np.ones((60, 80))
+    free = (np.arange(len(start)) % 120 < 60).astype(np.float32)
+    colors = fit_vertex_colors(gbuffer, colors=start, target_linear=TARGET, weight=weight, freedom=free)
+    assert np.array_equal(colors[free == 0], start[free == 0])
+    before, after = (np.abs(rendered(gbuffer, c)[0] - TARGET).mean() for c in (start, colors))
+    assert after < 0.8 * before
+
+
 def test_pixels_without_weight_say_nothing():
     gbuffer = drawn([fringe()])
     target = np.where(np.arange(80)[None, :, None] < 40, TARGET, np.nan).astype(np.float32)

@@ -146,6 +146,7 @@ fn raster_fit_colors<'py>(
     parameter: Rows<'py>,
     weight: Floats<'py>,
     colors: Rows<'py>,
+    freedom: Floats<'py>,
     target: Rows<'py>,
     pixel_weight: Floats<'py>,
     iterations: usize,
@@ -153,8 +154,9 @@ fn raster_fit_colors<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let fragments = segment_fragments(&pixel_offsets, &kind, &primitive, &parameter, &weight)?;
     let (colors, target) = (colors.as_slice()?.as_chunks().0, target.as_slice()?.as_chunks().0);
-    let pixel_weight = pixel_weight.as_slice()?;
-    let found = py.detach(|| tress_raster::fit_colors(&fragments, colors, target, pixel_weight, iterations, most));
+    let (freedom, pixel_weight) = (freedom.as_slice()?, pixel_weight.as_slice()?);
+    let found =
+        py.detach(|| tress_raster::fit_colors(&fragments, colors, freedom, target, pixel_weight, iterations, most));
     Ok(Array2::from(found).into_pyarray(py))
 }
 

@@ -171,10 +171,12 @@ fn of_point<T>(of_segment: &Rows, point: usize, start: T, add: impl Fn(&mut T, u
 
 /// Colours in [0, `most`] with which the hair's mean colour in every pixel of positive weight nears `target`.
 ///
-/// Points that do not show keep their colour. Cost: linear in the fragments for each of the `iterations`.
+/// Points that do not show keep their colour; the others move by the share `freedom`, in [0, 1], of what is asked of
+/// them. Cost: linear in the fragments for each of the `iterations`.
 pub fn fit_colors(
     fragments: &SegmentFragments,
     colors: &[[f32; 3]],
+    freedom: &[f32],
     target: &[[f32; 3]],
     pixel_weight: &[f32],
     iterations: usize,
@@ -204,7 +206,8 @@ pub fn fit_colors(
             .with_min_len(1024)
             .map(|point| {
                 let step = shares.mean(point, &residual);
-                let new = clipped([0, 1, 2].map(|c| ahead[point][c] + step[c]));
+                let share = freedom[shares.points[point] as usize];
+                let new = clipped([0, 1, 2].map(|c| ahead[point][c] + share * step[c]));
                 (new, clipped([0, 1, 2].map(|c| new[c] + momentum * (new[c] - found[point][c]))))
             })
             .unzip();

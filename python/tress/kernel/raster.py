@@ -165,20 +165,29 @@ def visible_weight(fragments: Fragments, *, points: int) -> Array:
 
 
 def fit_colors(
-    fragments: Fragments, *, colors: Array, target: Array, pixel_weight: Array, iterations: int, most: float
+    fragments: Fragments,
+    *,
+    colors: Array,
+    freedom: Array,
+    target: Array,
+    pixel_weight: Array,
+    iterations: int,
+    most: float,
 ) -> Array:
     """Colours (N, 3) float32 in [0, `most`] of the strand points, from `colors` (N, 3) on, nearing `target` (H, W, 3).
 
     SIRT with momentum: the mean colour of the hair in every pixel is compared with the target, and errors are handed
-    back to the points in the shares of their fragments, 1 - t and t. `pixel_weight` (H, W): how much a pixel
-    counts; 0 for not at all.
+    back to the points in the shares of their fragments, 1 - t and t. A point moves by the share `freedom` (N,), in
+    [0, 1], of its error. `pixel_weight` (H, W): how much a pixel counts; 0 for not at all.
     """
     start = checked(colors, name="colors", dtype=np.float32, shape=(None, 3))
     _check_points(fragments, len(start))
     size = (fragments.height, fragments.width)
     values = checked(target, name="target", dtype=np.float32, shape=(*size, 3)).reshape(-1, 3)
     factor = checked(pixel_weight, name="pixel_weight", dtype=np.float32, shape=size).reshape(-1)
-    return _core.raster_fit_colors(*_segment_arrays(fragments), start, values, factor, int(iterations), float(most))
+    free = checked(freedom, name="freedom", dtype=np.float32, shape=(len(start),))
+    settings = (int(iterations), float(most))
+    return _core.raster_fit_colors(*_segment_arrays(fragments), start, free, values, factor, *settings)
 
 
 def _segment_arrays(fragments: Fragments) -> tuple[Array, ...]:

@@ -24,6 +24,7 @@ def fit_vertex_colors(
     colors: Array,
     target_linear: Array,
     weight: Array,
+    freedom: Array | None = None,
     iterations: int = 12,
     most: float = 1.5,
 ) -> Array:
@@ -31,14 +32,17 @@ def fit_vertex_colors(
 
     `colors` (N, 3) is where to start, and what points keep that do not show. `target_linear` (H, W, 3) is the colour of
     the hair alone in every pixel, linear, not premultiplied: the matte's foreground. `weight` (H, W), not negative,
-    says how much each pixel counts; 0 where the target says nothing. Cost: linear in fragments, per iteration.
+    says how much each pixel counts; 0 where the target says nothing. `freedom` (N,) in [0, 1] says how readily each
+    point leaves the colour it starts from; all do without it. Cost: linear in fragments, per iteration.
 
     Raises `InputError` for shapes that do not fit the GBuffer.
     """
-    _check(gbuffer, colors, target_linear, weight)
+    free = np.ones(len(gbuffer.scene.points), np.float32) if freedom is None else freedom
+    _check(gbuffer, colors, target_linear, weight, free)
     return raster.fit_colors(
         gbuffer.fragments,
         colors=colors,
+        freedom=free,
         target=np.where(np.asarray(weight)[..., None] > 0, target_linear, 0),
         pixel_weight=weight,
         iterations=iterations,
@@ -46,12 +50,13 @@ def fit_vertex_colors(
     )
 
 
-def _check(gbuffer: GBuffer, colors: Array, target: Array, weight: Array) -> None:
+def _check(gbuffer: GBuffer, colors: Array, target: Array, weight: Array, freedom: Array) -> None:
     points, size = len(gbuffer.scene.points), gbuffer.shape
     for name, array, expected in (
         ("colors", colors, (points, 3)),
         ("target_linear", target, (*size, 3)),
         ("weight", weight, size),
+        ("freedom", freedom, (points,)),
     ):
         if np.shape(array) != expected:
             raise InputError(f"{name} has shape {np.shape(array)}; {expected} was expected.")

@@ -12,6 +12,7 @@ from tress.base.report import Report
 from tress.image.labels import BODY, FACE
 from tress.image.matte import Matte
 from tress.kernel.raster import strand_picture
+from tress.methods.portrait.inside_outline import near_background
 from tress.methods.portrait.opacity import with_fitted_opacity
 from tress.methods.portrait.rim_tint import with_rim_tint
 from tress.model.evaluate import Scene
@@ -43,7 +44,10 @@ class ColorParams(Params):
         0.08, low=0.0, high=10.0, doc="How far colours may stray from the matte's, so that the picture is the photo's."
     )
     rim_tint: float = param(
-        0.7, low=0.0, high=1.0, doc="How far the tint of soft rims is drawn towards that of the solid hair near them."
+        0.55,
+        low=0.0,
+        high=1.0,
+        doc="How far the colour of soft rims is drawn towards that of the solid hair near them.",
     )
     least_alpha: float = param(0.1, low=0.0, high=1.0, doc="Pixels with less hair than this say nothing on its colour.")
     min_width_px: float = param(1.0, low=0.1, high=8.0, unit="px", doc="Least width of a strand in pictures.")
@@ -74,6 +78,7 @@ def color_stage(
     matte: Matte,
     label: NDArray[np.uint8],
     on_skin: NDArray[np.bool_],
+    shown: NDArray[np.bool_],
     xy_from_world: NDArray[np.float64],
     params: ColorParams,
     report: Report,
@@ -81,7 +86,8 @@ def color_stage(
     """Colours for the strands of `scene` (with the head, which hides hair) seen by the photo's camera (3, 4).
 
     `label` (H, W): the layers, of which face and body may be before hair that the matte does not show. `on_skin` (N,):
-    points of hidden hair on the head's skin, which stays opaque.
+    points of hidden hair on the head's skin, which stays opaque. `shown` (N,): points that the photo shows, whose
+    colours are fitted; hidden hair keeps its own, lest it take on the background's where it stands out at the rim.
     """
     covered = np.isin(label, (BODY, FACE)) & (matte.alpha < _NO_HAIR)
     gbuffer = with_fitted_opacity(
@@ -100,8 +106,9 @@ def color_stage(
     color = fit_vertex_colors(
         gbuffer,
         colors=gbuffer.scene.color,
-        target_linear=_target(pixels, matte, coverage, box, params),
+        target_linear=_target(pixels, matte, near_background(label), coverage, box, params),
         weight=np.where(matte.alpha > params.least_alpha, coverage, 0),
+        freedom=shown.astype(np.float32),
         iterations=params.iterations,
     )
     hair = strand_picture(gbuffer.fragments, colors=color)
@@ -120,13 +127,19 @@ def _box(where: NDArray[np.bool_]) -> Box:
 
 
 def _target(
-    pixels: NDArray[np.uint8], matte: Matte, coverage: NDArray[np.float32], box: Box, params: ColorParams
+    pixels: NDArray[np.uint8],
+    matte: Matte,
+    outer: NDArray[np.bool_],
+    coverage: NDArray[np.float32],
+    box: Box,
+    params: ColorParams,
 ) -> NDArray[np.float32]:
     """Colour (H, W, 3) that the strands should show, linear; 0 outside the `box`.
 
     Where there is mostly hair: the colour with which the strands, covering as much of the pixel as they do, give the
     photo's pixel over the other layers, but near the matte's own colour of hair, lest the background tint it. At soft
-    edges: the matte's colour. Rims have the tint of the hair near them.
+    edges: the matte's colour. Rims have the tint of the hair near them, and those `outer` (H, W) ones, which are next
+    to the background, its brightness.
     """
     own, seen = matte.foreground[box], coverage[box][..., None]
     exact = (srgb_to_linear(pixels[box]) - (1 - seen) * matte.background[box]) / np.maximum(seen, _LEAST_COVERAGE)
@@ -134,7 +147,9 @@ def _target(
     near = np.clip(own + np.clip(exact - own, -reach, reach), 0, _BRIGHTEST)
     target = np.zeros(pixels.shape, np.float32)
     wanted = np.where((matte.alpha[box] > _MOSTLY_HAIR)[..., None], near, own)
-    target[box] = with_rim_tint(wanted, foreground=own, alpha=matte.alpha[box], amount=params.rim_tint)
+    target[box] = with_rim_tint(
+        wanted, foreground=own, alpha=matte.alpha[box], outer=outer[box], amount=params.rim_tint
+    )
     return target
 
 

@@ -14,6 +14,7 @@ from tress.base.params import Params, param
 from tress.base.report import Report
 from tress.kernel import fields
 from tress.methods.portrait.envelope import Head
+from tress.methods.portrait.inside_outline import inside_outline
 from tress.methods.portrait.strand_colors import strand_colors
 from tress.methods.portrait.volume import HairVolume
 
@@ -48,6 +49,9 @@ class GrowParams(Params):
     hidden_step: float = param(0.007, low=0.0005, high=0.02, unit="m", doc="Distance of vertices of hidden strands.")
     longest: float = param(0.6, low=0.01, high=3.0, unit="m", doc="Longest way from a seed to root or tip.")
     shortest: float = param(0.006, low=0.0, high=0.2, unit="m", doc="Shorter strands are dropped.")
+    shortest_visible: float = param(
+        0.002, low=0.0, high=0.2, unit="m", doc="The same for strands on the photo's surface, down to its bumps."
+    )
     ragged: float = param(0.02, low=0.0, high=0.2, unit="m", doc="How much the tips of hanging hair differ, mostly.")
     clearance: float = param(0.001, low=0.0, high=0.01, unit="m", doc="Distance kept from the head.")
 
@@ -56,7 +60,8 @@ class GrowParams(Params):
 class GrownHair:
     """Strands in the view frame, root to tip: `points` (N, 3) float32 metres, `offsets` (S + 1,) int64, `color` (N,
     3) float32 linear, `alpha` (N,) float32 in [0, 1]. Per strand: `visible`, on the photograph's surface; `rooted`,
-    the root meets the head. Per point: `on_skin`, hidden and close to the head.
+    the root meets the head. Per point: `on_skin`, hidden and close to the head; `shown`, with the
+    photograph's own colour.
     """
 
     points: Array
@@ -66,6 +71,7 @@ class GrownHair:
     visible: Array
     rooted: Array
     on_skin: Array
+    shown: Array
 
 
 def grow(
@@ -73,12 +79,16 @@ def grow(
     *,
     foreground: Array,
     alpha: Array,
+    before: Array,
     head: Head,
     params: GrowParams = GrowParams(),
     seed: int = 0,
     report: Report,
 ) -> GrownHair:
-    """Up to `params.count` strands; `foreground` (H, W, 3) linear and `alpha` (H, W) are those of the matte."""
+    """Up to `params.count` strands; `foreground` (H, W, 3) linear and `alpha` (H, W) are those of the matte.
+
+    `before` (H, W) bool says which pixels hide what is behind; hidden strands stay behind them (`inside_outline`).
+    """
     random = np.random.default_rng(seed)
     matrix = head.xy_from_view
     field = fields.VoxelField(hair.direction, hair.head_distance, hair.origin, hair.voxel)
@@ -89,9 +99,17 @@ def grow(
         _visible_seeds(hair.sheet, matrix, params, random),
         field=field,
         sheet=sheet,
-        settings=_settings(params, step, params.pixel_cap, most),
+        settings=replace(
+            _settings(params, step, params.pixel_cap, most), min_length=min(params.shortest, params.shortest_visible)
+        ),
     )
     hidden = _hidden(hair, field, sheet, seen, params, random)
+    hidden = replace(
+        hidden,
+        points=inside_outline(
+            hidden.points, solid=before, xy_from_view=matrix, head_distance=hair.head_distance, box=hair.box
+        ),
+    )
     points = np.concatenate([seen.points, hidden.points]).astype(np.float32)
     offsets = np.concatenate([seen.offsets, hidden.offsets[1:] + len(seen.points)])
     visible = np.repeat([True, False], [len(seen.offsets) - 1, len(hidden.offsets) - 1])
@@ -101,9 +119,10 @@ def grow(
     report.number("vertices", len(points))
     through = np.searchsorted(offsets, np.flatnonzero(distance < -DEEP_IN_HEAD), side="right")
     report.number("strands_through_head", len(np.unique(through)))
-    color, opacity = strand_colors(points, offsets, visible, hair, foreground, alpha, matrix, random)
+    color, opacity, shown = strand_colors(points, offsets, visible, hair, foreground, alpha, before, matrix, random)
     on_skin = np.repeat(~visible, np.diff(offsets)) & (distance < ON_SKIN)
-    return GrownHair(points, offsets, color, opacity, visible, np.concatenate([seen.rooted, hidden.rooted]), on_skin)
+    rooted = np.concatenate([seen.rooted, hidden.rooted])
+    return GrownHair(points, offsets, color, opacity, visible, rooted, on_skin, shown)
 
 
 def _hidden(

@@ -17,6 +17,7 @@ from tress.methods.portrait.depth import StrandDepths, depth
 from tress.methods.portrait.document import bare_scene, photo_camera
 from tress.methods.portrait.grow import GrownHair, grow
 from tress.methods.portrait.head import PortraitHead, head_stage
+from tress.methods.portrait.inside_outline import before_hidden
 from tress.methods.portrait.layers import has_hair, layers_stage
 from tress.methods.portrait.matte import matte_stage
 from tress.methods.portrait.orientation import orientation
@@ -163,6 +164,7 @@ def run_strands(work: Work, report: Report) -> GrownHair:
         work["volume"],
         foreground=matte.foreground,
         alpha=matte.alpha,
+        before=before_hidden(matte.alpha, work["layers"].label),
         head=work["head"].fitted,
         params=work.params.strands,
         seed=work.params.seed,
@@ -194,6 +196,7 @@ def run_color(work: Work, report: Report) -> ColoredHair:
         matte=work["matte"],
         label=work["layers"].label,
         on_skin=work["strands"].on_skin,
+        shown=work["strands"].shown,
         xy_from_world=camera.xy_from_world,
         params=work.params.color,
         report=report,

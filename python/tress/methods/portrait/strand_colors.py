@@ -9,6 +9,7 @@ from scipy.ndimage import binary_erosion, gaussian_filter1d
 
 from tress.image.complete import complete
 from tress.methods.portrait.clean_color import clean_color
+from tress.methods.portrait.rim_tint import with_rim_tint
 from tress.methods.portrait.volume import HairVolume
 
 Array = np.ndarray[Any, Any]
@@ -44,14 +45,17 @@ def strand_colors(
     hair: HairVolume,
     foreground: Array,
     alpha: Array,
+    before: Array,
     xy_from_view: Array,
     random: np.random.Generator,
-) -> tuple[Array, Array]:
-    """(N, 3) float32 linear and (N,) float32: a visible vertex takes its own pixel of the matte.
+) -> tuple[Array, Array, Array]:
+    """(N, 3) float32 linear, (N,) float32, and whether the photograph shows the vertex (N,) bool: it then takes its own
+    pixel of the matte.
 
     A hidden one takes the colour to which the hair is completed at its place (PatchMatch, guided by the height), and a
     part of what lies at a place across the hair drawn for its strand, so that roots, tips and locks differ as in the
-    photograph; close behind visible hair, that hair.
+    photograph; close behind visible hair, that hair. The rim beside pixels `before` (H, W), where background shines
+    through, has the colour of the hair near it.
     """
     shape = alpha.shape
     scale = np.array([xy_from_view[0, 0], xy_from_view[1, 1]], np.float32)
@@ -60,11 +64,13 @@ def strand_colors(
     solid = _solid(alpha, hair)
     clean = clean_color(foreground, solid, px_per_metre=xy_from_view[0, 0])
     across = _across(clean, solid)
+    tinted = with_rim_tint(foreground, foreground=foreground, alpha=alpha, outer=~before, amount=1.0)
     drawn = random.integers(0, WIDTHS, len(count))
     completed = _completed(clean, solid, pixel, seed=int(random.integers(2**31)))
     near_by = cv2.GaussianBlur(clean, (0, 0), 2.0)
     level = _level(across, LEVEL_BLUR * xy_from_view[0, 0])
     color, opacity = np.empty((len(points), 3), np.float32), np.ones(len(points), np.float32)
+    on_photo = np.zeros(len(points), np.bool_)
 
     def fill(first: int, end: int) -> None:
         """Colours of the strands from `first` on, before `end`."""
@@ -78,14 +84,15 @@ def strand_colors(
         found += near * (near_by[index] - found)
         found = _along_strands(found, level[index[0]], strands)
         shown = np.repeat(visible[first:end], strands) & (np.abs(behind) < ON_SHEET)
-        found[shown] = _bilinear(foreground, place[shown])
+        found[shown] = _bilinear(tinted, place[shown])
         color[part] = found
+        on_photo[part] = shown
         opacity[part][shown] = np.clip(_bilinear(alpha, place[shown]), 0, 1)
 
     with ThreadPoolExecutor() as pool:
         bounds = [*range(0, len(count), STRANDS_AT_ONCE), len(count)]
         list(pool.map(fill, bounds[:-1], bounds[1:]))
-    return color, opacity
+    return color, opacity, on_photo
 
 
 def _along_strands(color: Array, level: Array, count: Array) -> Array:
