@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 from skimage.metrics import structural_similarity
@@ -11,14 +12,15 @@ from tress.base.params import Params, param
 from tress.base.report import Report
 from tress.image.labels import BODY, FACE
 from tress.image.matte import Matte
+from tress.kernel import raster
 from tress.kernel.raster import strand_picture
-from tress.methods.portrait.inside_outline import near_background
+from tress.methods.portrait.inside_outline import before_hidden, near_background
 from tress.methods.portrait.opacity import with_fitted_opacity
 from tress.methods.portrait.rim_tint import with_rim_tint
 from tress.model.evaluate import Scene
 from tress.render.fit_colors import fit_vertex_colors
 from tress.render.flat_scene import flat_scene
-from tress.render.gbuffer import hair_coverage
+from tress.render.gbuffer import GBuffer, hair_coverage
 from tress.render.picture import over, srgb_rgba
 
 _MOSTLY_HAIR = 0.5
@@ -29,6 +31,8 @@ _RELATIVE = 4.0
 """How much faster the reach around the matte's colour grows with that colour than it starts."""
 _LUMA = np.array([0.299, 0.587, 0.114])
 _ROOM_PX = 16
+_RIM = 0.006
+"""Metres from the outline within which hidden hair keeps its own colours."""
 
 Box = tuple[slice, slice]
 """Rows and columns of a picture."""
@@ -87,7 +91,7 @@ def color_stage(
 
     `label` (H, W): the layers, of which face and body may be before hair that the matte does not show. `on_skin` (N,):
     points of hidden hair on the head's skin, which stays opaque. `shown` (N,): points that the photo shows, whose
-    colours are fitted; hidden hair keeps its own, lest it take on the background's where it stands out at the rim.
+    colours are fitted; hidden hair near the outline keeps its own, lest it take on the background's where it stands out at the rim.
     """
     covered = np.isin(label, (BODY, FACE)) & (matte.alpha < _NO_HAIR)
     gbuffer = with_fitted_opacity(
@@ -108,12 +112,25 @@ def color_stage(
         colors=gbuffer.scene.color,
         target_linear=_target(pixels, matte, near_background(label), coverage, box, params),
         weight=np.where(matte.alpha > params.least_alpha, coverage, 0),
-        freedom=shown.astype(np.float32),
+        freedom=_freedom(gbuffer, shown, matte.alpha, label),
         iterations=params.iterations,
     )
     hair = strand_picture(gbuffer.fragments, colors=color)
     hair[covered] = 0
     return _compared(hair, color, gbuffer.scene.alpha, pixels, matte, box, report)
+
+
+def _freedom(
+    gbuffer: GBuffer, shown: NDArray[np.bool_], alpha: NDArray[np.float32], label: NDArray[np.uint8]
+) -> NDArray[np.float32]:
+    """(N,): 1 for points whose colours may be fitted: those that the photo shows, and hidden ones far from its rim."""
+    scale = float(np.linalg.norm(gbuffer.xy_from_world[0, :3]))
+    before = before_hidden(alpha, label).astype(np.uint8)
+    inner = cv2.distanceTransform(before, cv2.DIST_L2, 3) > _RIM * scale
+    screen = raster.project(gbuffer.scene.points, xy_from_points=gbuffer.xy_from_world)
+    height, width = alpha.shape
+    column, row = (np.clip(screen[:, k].astype(np.int64), 0, side - 1) for k, side in ((0, width), (1, height)))
+    return (shown | inner[row, column]).astype(np.float32)
 
 
 def _box(where: NDArray[np.bool_]) -> Box:
