@@ -91,7 +91,7 @@ def color_stage(
 
     `label` (H, W): the layers, of which face and body may be before hair that the matte does not show. `on_skin` (N,):
     points of hidden hair on the head's skin, which stays opaque. `shown` (N,): points that the photo shows, whose
-    colours are fitted; hidden hair near the outline keeps its own, lest it take on the background's where it stands out at the rim.
+    colours are fitted; hidden hair near the outline keeps its own, lest it take on the background's at the rim.
     """
     covered = np.isin(label, (BODY, FACE)) & (matte.alpha < _NO_HAIR)
     gbuffer = with_fitted_opacity(
