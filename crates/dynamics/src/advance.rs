@@ -78,7 +78,7 @@ fn frame_chains<'a>(chains: Chains<'a>, frame: Frame<'a>, options: &Options) -> 
         .map(|ends| {
             let own = ends[0]..ends[1];
             let goals = [&frame.goal_before[own.clone()], &frame.goal_after[own.clone()]];
-            Chain::new(&chains.mass[own.clone()], &chains.goal_weight[own], goals, options, step)
+            Chain::new(&chains.mass[own.clone()], &chains.goal_weight[own], goals, frame.colliders, options, step)
         })
         .collect()
 }

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use crate::Options;
-use crate::collision::Moving;
+use crate::collision::{Collider, Moving};
 use crate::constraints::bend::Bend;
 use crate::constraints::contact::resolved;
 use crate::constraints::goal;
@@ -44,6 +44,8 @@ pub(crate) struct Chain<'a> {
     goal_pull: Vec<DVec3>,
     stretch: Stretch,
     bend: Option<Bend>,
+    /// For each collider, distances that particles, then middles of segments, keep.
+    kept: Vec<[Vec<f64>; 2]>,
 }
 
 /// Part of a chain's inertia that keeps a straight one solvable.
@@ -51,7 +53,14 @@ const LEAST_INERTIA: f64 = 1e-9;
 
 impl<'a> Chain<'a> {
     /// A chain for a frame of steps of `step` seconds.
-    pub fn new(mass: &'a [f64], goal_weight: &[f64], goals: [&'a [DVec3]; 2], options: &Options, step: f64) -> Self {
+    pub fn new(
+        mass: &'a [f64],
+        goal_weight: &[f64],
+        goals: [&'a [DVec3]; 2],
+        colliders: &[Collider<'_>],
+        options: &Options,
+        step: f64,
+    ) -> Self {
         let inverse = inverse_masses(mass, goal_weight, step * options.drag_per_sec);
         let lengths = goals.map(lengths_of);
         let soft = |weight: &f64| goal::compliance(*weight, options.goal_n_per_m) / (step * step);
@@ -70,6 +79,7 @@ impl<'a> Chain<'a> {
             inverse,
             lengths,
             bend,
+            kept: colliders.iter().map(|collider| kept_distances(collider, goals[1], options.clearance)).collect(),
         }
     }
 
@@ -137,21 +147,21 @@ impl<'a> Chain<'a> {
 
     /// Particles, then the middles of segments, out of the colliders.
     pub fn collide(&self, particles: &mut Particles<'_>, moment: &Moment<'_>) {
-        let Options { clearance, friction, .. } = *moment.options;
-        for collider in &moment.colliders {
-            for i in 0..particles.position.len() {
+        let friction = moment.options.friction;
+        for (collider, [points, middles]) in moment.colliders.iter().zip(&self.kept) {
+            for (i, &kept) in points.iter().enumerate() {
                 if self.inverse[i] == 0.0 {
                     continue;
                 }
-                if let Some(touch) = collider.touch(particles.before[i], particles.position[i], clearance) {
+                if let Some(touch) = collider.touch(particles.before[i], particles.position[i], kept) {
                     particles.position[i] = resolved(particles.position[i], touch, friction);
                 }
             }
-            for j in 0..self.length.len() {
+            for (j, &kept) in middles.iter().enumerate() {
                 let free = [self.inverse[j], self.inverse[j + 1]].map(|w| f64::from(w > 0.0));
                 let middle = 0.5 * (particles.position[j] + particles.position[j + 1]);
                 let was = 0.5 * (particles.before[j] + particles.before[j + 1]);
-                if let Some(touch) = collider.touch(was, middle, clearance).filter(|_| free[0] + free[1] > 0.0) {
+                if let Some(touch) = collider.touch(was, middle, kept).filter(|_| free[0] + free[1] > 0.0) {
                     let way = 2.0 * touch.depth / (free[0] + free[1]) * touch.normal;
                     particles.position[j] += free[0] * way;
                     particles.position[j + 1] += free[1] * way;
@@ -195,6 +205,17 @@ impl<'a> Chain<'a> {
 /// motion and leaves the state of rest as it is.
 pub(crate) fn inverse_masses(mass: &[f64], goal_weight: &[f64], drag: f64) -> Vec<f64> {
     mass.iter().zip(goal_weight).map(|(m, w)| if *w < 1.0 { 1.0 / (m * (1.0 + drag)) } else { 0.0 }).collect()
+}
+
+/// What particles and middles keep from a collider: the clearance, or what their goals have where that is less. So hair
+/// that is modelled close to a head, or rooted in it, is not pushed off.
+fn kept_distances(collider: &Collider<'_>, goal: &[DVec3], clearance: f64) -> [Vec<f64>; 2] {
+    let there = collider.during(1.0, 1.0);
+    let kept = |point: DVec3| there.distance(point).min(clearance);
+    [
+        goal.iter().map(|point| kept(*point)).collect(),
+        goal.windows(2).map(|pair| kept(0.5 * (pair[0] + pair[1]))).collect(),
+    ]
 }
 
 fn outer(v: DVec3) -> DMat3 {

@@ -39,7 +39,7 @@ pub struct Options {
     pub wind: Wind,
     /// Coulomb's coefficient at colliders.
     pub friction: f64,
-    /// Distance that particles keep from colliders, metres.
+    /// Distance that particles keep from colliders, metres, unless their goals are nearer.
     pub clearance: f64,
     /// Distance that particles of different chains keep, metres, unless their goals are nearer; 0: chains do not meet.
     pub chain_distance: f64,

@@ -38,7 +38,7 @@ class DynamicsParams(Params):
     gust_secs: float = param(1.5, low=0.01, high=1e3, unit="s", doc="Time from gust to gust.")
     seed: int = param(0, low=0, high=2**63 - 1, doc="Gusts of another seed come at other times.")
     friction: float = param(0.3, low=0.0, high=10.0, doc="Coulomb's coefficient on what hair lies on.")
-    clearance: float = param(0.002, low=0.0, high=1.0, unit="m", doc="Distance from what hair lies on.")
+    clearance: float = param(0.01, low=0.0, high=1.0, unit="m", doc="Distance from things, unless its goal is nearer.")
     chain_distance: float = param(0.0, low=0.0, high=1.0, unit="m", doc="Distance between chains; 0: they may pass.")
     roots: str = choice("clamped", options=("clamped", "hinged"), doc="Whether roots keep the goal's direction.")
     substeps: int = param(6, low=1, high=1000, doc="Steps a frame.")

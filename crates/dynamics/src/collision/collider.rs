@@ -103,6 +103,12 @@ pub struct Moving<'a> {
 }
 
 impl Moving<'_> {
+    /// Distance of a point, metres, negative inside; infinite where the shape is far away.
+    #[must_use]
+    pub fn distance(&self, point: DVec3) -> f64 {
+        self.shape.at(self.into_local * (point - self.at)).map_or(f64::INFINITY, |(distance, _)| distance)
+    }
+
     /// Whether a particle that was at `was` before the step and is at `point` after it is nearer than `clearance`.
     #[must_use]
     pub fn touch(&self, was: DVec3, point: DVec3, clearance: f64) -> Option<Touch> {
