@@ -5,7 +5,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from tress.dynamics.params import HairParams
 from tress.kernel.dynamics import Chains
@@ -71,7 +71,7 @@ def _links(goal: Array, place: Array, distance: float) -> Array:
     pairs = []
     for step in range(int(place.max(initial=0)) + 1):
         own = np.flatnonzero(place == step)
-        found = cKDTree(goal[own]).query_pairs(distance, output_type="ndarray")
+        found = KDTree(goal[own]).query_pairs(distance, output_type="ndarray")
         pairs.append(own[found])
     joined = np.concatenate([np.zeros((0, 2), np.int64), *pairs])
     return joined[np.lexsort(joined.T[::-1])]
