@@ -10,7 +10,7 @@ from examples.meadow import meadow, picture
 from tools.pictures.sheets import rows, save, side_by_side
 from tress.app.strips_job import StripsOptions, texture_params
 from tress.base.report import Report
-from tress.methods.strips.appearance import strips_scene, view
+from tress.methods.strips.appearance import for_style, strips_scene, view
 from tress.methods.strips.hairdo import hairdo
 from tress.methods.strips.presets.registry import PRESETS
 from tress.render.occlusion import prepared
@@ -52,7 +52,7 @@ def meadow_picture() -> Array:
 def _sheet(preset: str, style: Style, angles: tuple[float, ...]) -> Array:
     options = StripsOptions(preset=preset, folder=Path())
     atlas = strand_atlas(texture_params(options), report=Report())
-    scene = prepared(strips_scene(hairdo(preset, atlas=atlas), textured=style.name != "gouraud"))
+    scene = prepared(strips_scene(hairdo(preset, atlas=atlas), **for_style(style)))
     camera = framed(scene, width=WIDTH, height=HEIGHT)
     pictures = [view(scene, camera, style=style, azimuth_rad=math.radians(angle)) for angle in angles]
     captions = [preset if style.name == "textured" and len(angles) > 2 else style.name, *[""] * (len(angles) - 1)]

@@ -12,7 +12,7 @@ from tress.base.report import Report
 from tress.io.atomic import OutputFolder
 from tress.io.formats.registry import format_of
 from tress.io.report_file import write_report
-from tress.methods.strips.appearance import BROWN, Color, preview, strips_scene
+from tress.methods.strips.appearance import BROWN, Color, for_style, preview, strips_scene
 from tress.methods.strips.bald_document import HEAD
 from tress.methods.strips.hairdo import hairdo
 from tress.methods.strips.params import StripsParams
@@ -69,7 +69,7 @@ def run_strips(options: StripsOptions, *, report: Report) -> Delivery:
             Image.fromarray(picture).save(output.path / "preview.png", compress_level=4)
         if options.turntable:
             with report.stage("turntable"):
-                scene = strips_scene(document, color=options.color, textured=style.name != "gouraud")
+                scene = strips_scene(document, color=options.color, **for_style(style))
                 write_webm(output.path / "turntable.webm", frames=turntable(scene, style=style, report=report))
         facts = {"preset": options.preset, "parameters": dataclasses.asdict(options.params)}
         write_report(report, output.path / "report.json", facts=facts)

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from tress.base.color import srgb_to_linear
+from tress.model.mesh import Mesh
 from tress.render.gbuffer import GBuffer
 from tress.render.mesh_fragments import MeshFragments, mesh_fragments
 from tress.render.mesh_frames import vertex_normals
@@ -36,6 +37,18 @@ def mesh_color(part: MeshFragments, *, away: Array) -> Array:
     normals = part.values(vertex_normals(mesh))
     facing = np.abs(normals @ away) / np.maximum(np.linalg.norm(normals, axis=1), 1e-12)
     return CLAY * (0.25 + 0.75 * facing[:, None]).astype(np.float32)
+
+
+def base_color(mesh: Mesh) -> Array:
+    """(V, 3) float32: the linear colours of the vertices, else the mean of what shows of the texture, else clay."""
+    if "color" in mesh.vertex_attributes:
+        return mesh.vertex_attributes["color"]
+    color = CLAY
+    if mesh.texture is not None:
+        pixels = mesh.texture.pixels.reshape(-1, mesh.texture.pixels.shape[2])
+        weight = pixels[:, 3].astype(np.float64) if pixels.shape[1] == 4 else np.ones(len(pixels))
+        color = weight @ srgb_to_linear(pixels[:, :3]) / max(weight.sum(), 1e-9)
+    return np.broadcast_to(np.asarray(color, np.float32), (len(mesh.positions), 3))
 
 
 def bilinear(pixels: Array, *, uv: Array) -> Array:

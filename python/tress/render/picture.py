@@ -7,7 +7,7 @@ import numpy as np
 from tress.base.color import linear_to_srgb8
 from tress.kernel import raster
 from tress.render.gbuffer import GBuffer
-from tress.render.style import Style
+from tress.render.style import LineStyle, Style
 
 Array = np.ndarray[Any, Any]
 
@@ -15,12 +15,17 @@ Array = np.ndarray[Any, Any]
 def premultiplied_rgba(gbuffer: GBuffer, *, style: Style, hold_out_meshes: bool = False) -> Array:
     """(H, W, 4) float32 linear, premultiplied, blended in linear light.
 
-    With `hold_out_meshes`, meshes hide strands but are themselves empty: the hair alone, ready to lie over a picture.
+    With `hold_out_meshes`, meshes hide strands but are themselves empty: the hair alone, ready to lie over a picture,
+    without the lines that a style may draw over it.
     """
     rgba = style.shade(gbuffer)
     if hold_out_meshes:
         rgba[gbuffer.fragments.kind == raster.TRIANGLE, 3] = 0
-    return raster.composite(gbuffer.fragments, rgba=rgba)
+    picture = raster.composite(gbuffer.fragments, rgba=rgba)
+    if isinstance(style, LineStyle) and not hold_out_meshes:
+        lines = style.drawn_lines(gbuffer)
+        return lines + (1 - lines[..., 3:]) * picture
+    return picture
 
 
 def straight_rgba(premultiplied: Array) -> Array:

@@ -1,6 +1,6 @@
 """What a style is."""
 
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -16,4 +16,13 @@ class Style(Protocol):
 
     def shade(self, gbuffer: GBuffer) -> Array:
         """(F, 4) float32: linear colour, not premultiplied, and opacity of every fragment; a fresh array."""
+        ...
+
+
+@runtime_checkable
+class LineStyle(Protocol):
+    """A style that also draws lines, which lie over the shaded picture and beyond its silhouette."""
+
+    def drawn_lines(self, gbuffer: GBuffer) -> Array:
+        """(H, W, 4) float32 linear, premultiplied."""
         ...

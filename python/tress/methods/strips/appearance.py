@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from tress.methods.strips.bald_document import HEAD
+from tress.methods.strips.pointed import pointed
 from tress.model.atlas import Atlas
 from tress.model.attachment import surface_mesh
 from tress.model.camera import Camera
@@ -36,6 +37,9 @@ TONES = 0.16
 """Spread of the strips' brightness."""
 PIECES = (3, 4)
 """Of every span along and across: fine enough for smooth light."""
+POINTED = 0.35
+"""Part of the length over which drawn strips narrow to a point."""
+UNTEXTURED = ("gouraud", "toon")
 VIEWS = (
     ("front", 0.0, 0.0),
     ("45 degrees", 45.0, 0.0),
@@ -46,14 +50,23 @@ VIEWS = (
 )
 
 
-def strips_scene(document: Document, *, color: Color = BROWN, time: float = 0.0, textured: bool = True) -> FlatScene:
-    """Head and hair at a time: with the atlas of the strips, or without it in the `color` of the hair."""
+def strips_scene(
+    document: Document, *, color: Color = BROWN, time: float = 0.0, textured: bool = True, drawn: bool = False
+) -> FlatScene:
+    """Head and hair at a time: with the atlas of the strips, or without it in the `color` of the hair.
+
+    `drawn` is hair as drawings have it: all strips of one colour, with pointed tips, and a scalp with a sharp border.
+    `for_style` has what suits a style.
+    """
     names = sorted(document.of_type(Strip))
     head = surface_mesh(document, HEAD, where="A picture")
-    meshes = {HEAD: _colored(head, _skin(head, color))}
+    meshes = {HEAD: _two_colored(head, color) if drawn else _colored(head, _skin(head, color))}
     if not names:
         return flat_scene(Scene(meshes=meshes))
     hair = strips_mesh(document, names=names, time=time, pieces=PIECES)
+    if drawn:
+        meshes["hair"] = _colored(pointed(replace(hair, texture=None), share=POINTED), _all(hair, color))
+        return flat_scene(Scene(meshes=meshes))
     tone = (1 + TONES * (_noise(hair.vertex_attributes["strip"]) - 0.5))[:, None].astype(np.float32)
     if textured and hair.texture is not None:
         meshes["hair"] = _colored(hair, np.repeat(tone, 3, axis=1))
@@ -62,10 +75,15 @@ def strips_scene(document: Document, *, color: Color = BROWN, time: float = 0.0,
     return flat_scene(Scene(meshes=meshes))
 
 
+def for_style(style: Style) -> dict[str, bool]:
+    """Options of `strips_scene`: what a style shows of strips."""
+    return {"textured": style.name not in UNTEXTURED, "drawn": style.name == "toon"}
+
+
 def preview(document: Document, *, color: Color = BROWN, style: Style | None = None, height: int = 560) -> Array:
     """(H, W, 3) uint8: the hairdo from five sides and from above, in the style `textured` unless told otherwise."""
     shown = style or TexturedStyle()
-    scene = prepared(strips_scene(document, color=color, textured=shown.name != "gouraud"))
+    scene = prepared(strips_scene(document, color=color, **for_style(shown)))
     camera = framed(scene, width=round(0.72 * height), height=height)
     pictures = [
         view(scene, camera, style=shown, azimuth_rad=math.radians(azimuth), elevation_rad=math.radians(elevation))
@@ -108,6 +126,15 @@ def _colored(mesh: Mesh, color: Array) -> Mesh:
 def _skin(mesh: Mesh, color: Color) -> Array:
     scalp = SHADED * mesh.vertex_attributes["scalp"][:, None]
     return SKIN * (1 - scalp) + scalp * 0.6 * np.asarray(color)
+
+
+def _two_colored(mesh: Mesh, color: Color) -> Mesh:
+    plain = _colored(mesh, _all(mesh, SKIN))
+    return replace(plain, vertex_attributes={**plain.vertex_attributes, "scalp_color": _all(mesh, color)})
+
+
+def _all(mesh: Mesh, color: Any) -> Array:
+    return np.broadcast_to(np.asarray(color, np.float32), (len(mesh.positions), 3))
 
 
 def _noise(index: Array) -> Array:

@@ -5,12 +5,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from tress.base.color import srgb_to_linear
 from tress.base.params import Params, param
 from tress.model.mesh import Mesh
 from tress.render.gbuffer import GBuffer, hair_fragments
 from tress.render.light import light_direction
-from tress.render.mesh_color import CLAY
+from tress.render.mesh_color import base_color
 from tress.render.mesh_fragments import mesh_fragments
 from tress.render.mesh_frames import is_cards, mesh_frames, vertex_normals
 from tress.render.occlusion import mesh_light_transmittance, mesh_sky_visibility
@@ -78,18 +77,6 @@ class Reached:
     light: Array
     to_light: Array
     to_eye: Array
-
-
-def base_color(mesh: Mesh) -> Array:
-    """(V, 3) float32: the linear colours of the vertices, else the mean of what shows of the texture, else clay."""
-    if "color" in mesh.vertex_attributes:
-        return mesh.vertex_attributes["color"]
-    color = CLAY
-    if mesh.texture is not None:
-        pixels = mesh.texture.pixels.reshape(-1, mesh.texture.pixels.shape[2])
-        weight = pixels[:, 3].astype(np.float64) if pixels.shape[1] == 4 else np.ones(len(pixels))
-        color = weight @ srgb_to_linear(pixels[:, :3]) / max(weight.sum(), 1e-9)
-    return np.broadcast_to(np.asarray(color, np.float32), (len(mesh.positions), 3))
 
 
 def lit_surface(color: Array, normal: Array, reached: Reached, *, light: float, sky: float) -> Array:

@@ -9,12 +9,12 @@ from tress.base.color import srgb_to_linear
 from tress.base.params import Params, param
 from tress.render.gbuffer import GBuffer, hair_fragments
 from tress.render.light import light_direction
-from tress.render.mesh_color import mesh_color
+from tress.render.mesh_color import base_color, mesh_color
 from tress.render.mesh_fragments import MeshFragments, mesh_fragments
 from tress.render.mesh_frames import is_cards, mesh_frames, vertex_normals
 from tress.render.occlusion import mesh_light_transmittance, mesh_sky_visibility
 from tress.render.strip_light import Gloss, StripSurface, lit_strips
-from tress.render.styles.gouraud import Reached, base_color, facing, lit_surface
+from tress.render.styles.gouraud import Reached, facing, lit_surface
 from tress.render.texture_levels import TexturePlaces, texture_places
 from tress.render.textures.encode import directions, shares
 
