@@ -45,7 +45,7 @@ def strips(
     style: Annotated[
         str,
         typer.Option(
-            help="How pictures are shaded: textured (strands, highlights), gouraud (plain), toon (drawn) or photo (unlit).",
+            help="How pictures are shaded: textured (strands), gouraud (plain strips), toon (drawn) or photo (unlit).",
             metavar="NAME",
             rich_help_panel=_RESULT,
         ),
