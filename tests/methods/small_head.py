@@ -120,6 +120,7 @@ def small_hair(volume_: HairVolume, report: Report, seed: int = 0, alpha: np.nda
         foreground=color,
         alpha=shown,
         before=(shown > SOLID_ALPHA) | solid_pixels(alpha),
+        skin=np.zeros(shown.shape, np.bool_),
         head=ball(),
         params=GrowParams(count=3000),
         seed=seed,

@@ -15,6 +15,7 @@ from tress.base.report import Report
 from tress.kernel import fields
 from tress.methods.portrait.envelope import Head
 from tress.methods.portrait.inside_outline import inside_outline
+from tress.methods.portrait.off_bare_skin import off_bare_skin
 from tress.methods.portrait.strand_colors import strand_colors
 from tress.methods.portrait.volume import HairVolume
 
@@ -80,6 +81,7 @@ def grow(
     foreground: Array,
     alpha: Array,
     before: Array,
+    skin: Array,
     head: Head,
     params: GrowParams = GrowParams(),
     seed: int = 0,
@@ -87,7 +89,8 @@ def grow(
 ) -> GrownHair:
     """Up to `params.count` strands; `foreground` (H, W, 3) linear and `alpha` (H, W) are those of the matte.
 
-    `before` (H, W) bool says which pixels hide what is behind; hidden strands stay behind them (`inside_outline`).
+    `before` (H, W) bool says which pixels hide what is behind; hidden strands stay behind them (`inside_outline`),
+    and off the bare `skin` (H, W) bool (`off_bare_skin`).
     """
     random = np.random.default_rng(seed)
     matrix = head.xy_from_view
@@ -103,7 +106,7 @@ def grow(
             _settings(params, step, params.pixel_cap, most), min_length=min(params.shortest, params.shortest_visible)
         ),
     )
-    hidden = _hidden(hair, field, sheet, seen, params, random)
+    hidden = off_bare_skin(_hidden(hair, field, sheet, seen, params, random), skin=skin, head=head)
     hidden = replace(
         hidden,
         points=inside_outline(

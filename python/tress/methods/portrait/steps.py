@@ -20,6 +20,7 @@ from tress.methods.portrait.head import PortraitHead, head_stage
 from tress.methods.portrait.inside_outline import before_hidden
 from tress.methods.portrait.layers import has_hair, layers_stage
 from tress.methods.portrait.matte import matte_stage
+from tress.methods.portrait.off_bare_skin import bare_skin
 from tress.methods.portrait.orientation import orientation
 from tress.methods.portrait.stage import Work
 from tress.methods.portrait.trace import trace
@@ -165,6 +166,7 @@ def run_strands(work: Work, report: Report) -> GrownHair:
         foreground=matte.foreground,
         alpha=matte.alpha,
         before=before_hidden(matte.alpha, work["layers"].label),
+        skin=bare_skin(matte.alpha, work["layers"].label),
         head=work["head"].fitted,
         params=work.params.strands,
         seed=work.params.seed,
