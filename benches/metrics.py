@@ -1,5 +1,6 @@
 """Likeness of two pictures inside a mask."""
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 from skimage.metrics import structural_similarity
@@ -24,3 +25,9 @@ def intersection_over_union(a: NDArray[np.bool_], b: NDArray[np.bool_]) -> float
     """Share of the union of two masks that both cover; 1 for two empty masks."""
     union = int((a | b).sum())
     return float((a & b).sum() / union) if union else 1.0
+
+
+def beside(mask: NDArray[np.bool_], *, part: float = 0.02) -> NDArray[np.bool_]:
+    """The pixels outside the mask within a `part` of its picture's diagonal: where hair that spills is seen."""
+    distance = cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, 3)
+    return ~mask & (distance <= part * np.hypot(*mask.shape))

@@ -24,6 +24,8 @@ from tress.render.gbuffer import GBuffer, hair_coverage
 from tress.render.picture import over, srgb_rgba
 
 _MOSTLY_HAIR = 0.5
+_BESIDE = 0.02
+"""Width of the band beside the hair that is compared with the photo as well, as part of the hair's diagonal."""
 _NO_HAIR = 0.02
 _LEAST_COVERAGE = 0.05
 _BRIGHTEST = 1.5
@@ -187,8 +189,15 @@ def _compared(
     psnr, ssim = _likeness(composite[box], pixels[box], mask)
     report.number("psnr_db", round(psnr, 2))
     report.number("ssim", round(ssim, 4))
+    beside = _beside(mask, around=_BESIDE * float(np.hypot(*mask.shape)))
+    report.number("psnr_beside_db", round(_likeness(composite[box], pixels[box], beside)[0], 2))
     report.number("covered", round(float(hair[box][..., 3][mask].mean()), 4) if mask.any() else 0.0)
     return ColoredHair(color, alpha, rerender, composite, psnr, ssim)
+
+
+def _beside(mask: NDArray[np.bool_], *, around: float) -> NDArray[np.bool_]:
+    """The pixels outside the hair within `around` pixels of it, where hair that spills would be seen."""
+    return ~mask & (cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, 3) <= around)
 
 
 def _likeness(picture: NDArray[np.uint8], photo: NDArray[np.uint8], mask: NDArray[np.bool_]) -> tuple[float, float]:
