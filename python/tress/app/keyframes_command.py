@@ -54,6 +54,10 @@ def keyframes(
     seed: Annotated[int, param_option(MotionParams, "seed", panel=_MOTION)] = _DEFAULT.seed,
     formats: Annotated[str, typer.Option(help="Files to write, by ending, with commas between.")] = "usdc,glb",
     turntable: Annotated[bool, typer.Option(help="Also write the film turntable.webm, which plays the motion.")] = True,
+    film: Annotated[
+        str,
+        typer.Option(help="Kinds of the film: webm, gif, mp4 (by your ffmpeg) or png (pictures), with commas between."),
+    ] = "webm",
     verbose: Annotated[
         int,
         typer.Option(
@@ -103,6 +107,7 @@ def keyframes(
         clear=clear,
         formats=tuple(name.strip().lstrip(".").lower() for name in formats.split(",") if name.strip()),
         turntable=turntable,
+        films=tuple(name.strip().lower() for name in film.split(",") if name.strip()),
     )
     with screen(verbose=verbose, quiet=quiet, json_output=json_output) as shown:
         shown.results(run_keyframes(options, report=shown.report))

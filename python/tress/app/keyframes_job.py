@@ -21,7 +21,7 @@ from tress.model.document import Document
 from tress.model.group import Group
 from tress.model.keyframes import Keyframes
 from tress.model.strip import Strip
-from tress.render.video import write_webm
+from tress.render.films import checked_films, write_films
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,7 @@ class KeyframesOptions:
     clear: bool = False
     formats: tuple[str, ...] = ("usdc", "glb")
     turntable: bool = True
+    films: tuple[str, ...] = ("webm",)
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,7 @@ class Delivery:
 def run_keyframes(options: KeyframesOptions, *, report: Report) -> Delivery:
     """Moves and delivers. Raises the errors of both; then nothing was written."""
     formats = {f"hair.{ending}": format_of(Path(f"hair.{ending}")) for ending in options.formats}
+    checked_films(options.films)
     with report.stage("read"):
         document = opened(options.source)
     with report.stage("keyframes"):
@@ -74,7 +76,7 @@ def _write_pictures(document: Document, options: KeyframesOptions, folder: Path,
     if options.turntable:
         film = FilmParams()
         frames = moving_turntable(document, params=film, report=report)
-        write_webm(folder / "turntable.webm", frames=frames, frames_per_sec=film.frames_per_sec)
+        write_films(folder, name="turntable", kinds=options.films, frames=frames, frames_per_sec=film.frames_per_sec)
 
 
 def moving(document: Document, options: KeyframesOptions) -> Document:

@@ -56,6 +56,13 @@ def strips(
     turntable: Annotated[
         bool, typer.Option(help="Also write the film turntable.webm.", rich_help_panel=_RESULT)
     ] = True,
+    film: Annotated[
+        str,
+        typer.Option(
+            help="Kinds of the film: webm, gif, mp4 (by your ffmpeg) or png (pictures), with commas between.",
+            rich_help_panel=_RESULT,
+        ),
+    ] = "webm",
     threads: Annotated[
         int | None,
         typer.Option(min=1, help="Use at most this many cores; the result is the same.", rich_help_panel=_SCREEN),
@@ -101,6 +108,7 @@ def strips(
         style=style,
         formats=tuple(name.strip().lstrip(".").lower() for name in formats.split(",") if name.strip()),
         turntable=turntable,
+        films=tuple(name.strip().lower() for name in film.split(",") if name.strip()),
     )
     with screen(verbose=verbose, quiet=quiet, json_output=json_output) as shown:
         shown.results(run_strips(options, report=shown.report))

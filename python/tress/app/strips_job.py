@@ -9,22 +9,23 @@ from PIL import Image
 from tress.app.saved_document import opened
 from tress.base.errors import InputError
 from tress.base.report import Report
-from tress.io.atomic import OutputFolder
+from tress.io.atomic import OutputFolder, write_bytes
 from tress.io.formats.registry import format_of
 from tress.io.report_file import write_report
-from tress.methods.strips.appearance import BROWN, Color, for_style, preview, strips_scene
+from tress.io.toon_glb import encode_toon_glb
+from tress.methods.strips.appearance import BROWN, SKIN, Color, for_style, preview, strips_scene
 from tress.methods.strips.bald_document import HEAD
 from tress.methods.strips.hairdo import hairdo
 from tress.methods.strips.params import StripsParams
 from tress.methods.strips.presets.registry import preset_of
 from tress.model.document import Document
 from tress.model.head import Head
+from tress.render.films import checked_films, write_films
 from tress.render.style import Style
 from tress.render.styles import STYLES
 from tress.render.textures.params import TextureParams
 from tress.render.textures.strand_atlas import strand_atlas
 from tress.render.turntable import turntable
-from tress.render.video import write_webm
 
 ATLAS_PX, ROOT_SHADE, TIP_LIGHT = 1024, 0.75, 1.25
 
@@ -41,6 +42,7 @@ class StripsOptions:
     style: str = "textured"
     formats: tuple[str, ...] = ("usdc", "glb")
     turntable: bool = True
+    films: tuple[str, ...] = ("webm",)
 
 
 @dataclass(frozen=True)
@@ -54,7 +56,7 @@ class Delivery:
 def run_strips(options: StripsOptions, *, report: Report) -> Delivery:
     """Grows the hairdo and delivers it. Raises the errors of both; then nothing was written."""
     preset_of(options.preset)
-    style = style_of(options.style)
+    style, films = style_of(options.style), checked_films(options.films)
     formats = {f"hair.{ending}": format_of(Path(f"hair.{ending}")) for ending in options.formats}
     head = None if options.head is None else fitted_head(options.head)
     with report.stage("strands"):
@@ -63,14 +65,19 @@ def run_strips(options: StripsOptions, *, report: Report) -> Delivery:
     with OutputFolder(options.folder) as output:
         with report.stage("formats"):
             for name, form in formats.items():
-                form.write(document, output.path / name)
+                if form.name == "glb" and style.name == "toon":
+                    data = encode_toon_glb(document, color=options.color, skin=SKIN)
+                    write_bytes(output.path / name, data)
+                else:
+                    form.write(document, output.path / name)
         with report.stage("preview"):
             picture = preview(document, color=options.color, style=style)
             Image.fromarray(picture).save(output.path / "preview.png", compress_level=4)
         if options.turntable:
             with report.stage("turntable"):
                 scene = strips_scene(document, color=options.color, **for_style(style))
-                write_webm(output.path / "turntable.webm", frames=turntable(scene, style=style, report=report))
+                frames = turntable(scene, style=style, report=report)
+                write_films(output.path, name="turntable", kinds=films, frames=frames)
         facts = {"preset": options.preset, "parameters": dataclasses.asdict(options.params)}
         write_report(report, output.path / "report.json", facts=facts)
         files = tuple(sorted(file.relative_to(output.path) for file in output.path.rglob("*") if file.is_file()))

@@ -19,7 +19,8 @@ Array = np.ndarray[Any, Any]
 class CardMesh:
     """V vertices and F triangles: `positions`, `normals` (V, 3) and `tangents` (V, 4) float32, the tangent along u with
     the sign of the bitangent; `uv` (V, 2) float32 with v up; `triangles` (F, 3) uint32; `targets` (M, V, 3) float32,
-    displacements of the morph targets; `atlas` is the record's name, or ""."""
+    displacements of the morph targets; `atlas` is the record's name, or "". `fraction` (V, 2) float32 along and across
+    the `strip` (V,) int32; `closed` says whether all of them are, as clumps are."""
 
     atlas: str
     positions: Array
@@ -28,6 +29,9 @@ class CardMesh:
     uv: Array
     triangles: Array
     targets: Array
+    fraction: Array
+    strip: Array
+    closed: bool
 
 
 def card_mesh(
@@ -49,7 +53,16 @@ def card_mesh(
         uv=uv,
         triangles=grid.triangles.astype(np.uint32),
         targets=np.array(targets, np.float32).reshape(len(targets), len(positions), 3),
+        fraction=grid.fraction.astype(np.float32),
+        strip=grid.strip,
+        closed=bool(_sides_meet(positions, grid.fraction)),
     )
+
+
+def _sides_meet(positions: Array, fraction: Array) -> bool:
+    """Whether the two sides of every strip are one line; rows of a strip are in order on both."""
+    left, right = positions[fraction[:, 1] == 0], positions[fraction[:, 1] == 1]
+    return left.shape == right.shape and len(left) > 0 and np.abs(left - right).max() < 1e-6
 
 
 def tangent_frames(positions: Array, *, triangles: Array, fraction: Array) -> tuple[Array, Array]:

@@ -77,7 +77,7 @@ def add_levels(
             "extras": {"MSFT_screencoverage": [level.coverage for level in levels]},
         }
     if motion is not None and motion.shapes.size and moving:
-        _add_clip(builder, motion, moving, step=step)
+        add_clip(builder, motion, moving, step=step)
     return nodes[0]
 
 
@@ -164,7 +164,8 @@ def _add_texture(builder: GlbBuilder, pixels: Array, name: str) -> int:
     return builder.add("textures", {"source": image, "sampler": builder.add("samplers", sampler)})
 
 
-def _add_clip(builder: GlbBuilder, motion: PrincipalMotion, nodes: Sequence[int], *, step: bool) -> None:
+def add_clip(builder: GlbBuilder, motion: PrincipalMotion, nodes: Sequence[int], *, step: bool) -> None:
+    """Adds one clip that moves the morph targets of all `nodes`; with `step` it jumps."""
     times = (motion.times - min(motion.times[0], 0.0)).astype(np.float32)
     sampler = {
         "input": builder.add_accessor(times, target=None, limits=True),

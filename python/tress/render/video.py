@@ -1,7 +1,6 @@
 """WebM through OpenCV's bundled FFmpeg (LGPL, with libvpx; there is no x264 in it)."""
 
 import os
-import secrets
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,7 +9,8 @@ from typing import Any, Final
 import cv2
 import numpy as np
 
-from tress.base.errors import InputError, OutputError
+from tress.base.errors import InputError
+from tress.render.part_file import part_of
 
 Array = np.ndarray[Any, Any]
 
@@ -26,16 +26,8 @@ def write_webm(path: Path, *, frames: Iterable[Array], frames_per_sec: float = 1
     """
     if codec not in CODECS:
         raise InputError(f"codec is {codec!r}; one of {', '.join(CODECS)} was expected.")
-    temporary = path.with_name(f".{path.stem}.{secrets.token_hex(4)}.part.webm")
-    try:
-        count = _encode(temporary, frames, frames_per_sec, codec)
-        os.replace(temporary, path)
-    except OSError as error:
-        raise OutputError(f"{path} could not be written: {(error.strerror or str(error)).lower()}.") from error
-    finally:
-        if temporary.parent.is_dir():
-            temporary.unlink(missing_ok=True)
-    return count
+    with part_of(path) as temporary:
+        return _encode(temporary, frames, frames_per_sec, codec)
 
 
 def read_video(path: Path) -> tuple[Array, float]:

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 
 from tress.methods.strips.bald_document import HEAD
-from tress.methods.strips.pointed import pointed
 from tress.model.atlas import Atlas
 from tress.model.attachment import surface_mesh
 from tress.model.camera import Camera
 from tress.model.document import Document
 from tress.model.evaluate import Scene
 from tress.model.mesh import Mesh
+from tress.model.pointed import pointed
 from tress.model.strip import Strip
 from tress.model.strip_mesh import strips_mesh
 from tress.render.flat_scene import FlatScene, flat_scene
@@ -30,7 +30,7 @@ Array = np.ndarray[Any, Any]
 Color = tuple[float, float, float]
 
 BROWN: Color = (0.085, 0.038, 0.017)
-SKIN = np.array([0.50, 0.29, 0.20])
+SKIN: Color = (0.50, 0.29, 0.20)
 SHADED = 0.9
 """How far the scalp has the colour of the hair: roots that no strip stands for."""
 TONES = 0.16
@@ -65,7 +65,7 @@ def strips_scene(
         return flat_scene(Scene(meshes=meshes))
     hair = strips_mesh(document, names=names, time=time, pieces=PIECES)
     if drawn:
-        meshes["hair"] = _colored(pointed(replace(hair, texture=None), share=POINTED), _all(hair, color))
+        meshes["hair"] = _colored(_drawn(hair), _all(hair, color))
         return flat_scene(Scene(meshes=meshes))
     tone = (1 + TONES * (_noise(hair.vertex_attributes["strip"]) - 0.5))[:, None].astype(np.float32)
     if textured and hair.texture is not None:
@@ -125,7 +125,13 @@ def _colored(mesh: Mesh, color: Array) -> Mesh:
 
 def _skin(mesh: Mesh, color: Color) -> Array:
     scalp = SHADED * mesh.vertex_attributes["scalp"][:, None]
-    return SKIN * (1 - scalp) + scalp * 0.6 * np.asarray(color)
+    return np.array(SKIN) * (1 - scalp) + scalp * 0.6 * np.asarray(color)
+
+
+def _drawn(hair: Mesh) -> Mesh:
+    fraction, strip = hair.vertex_attributes["fraction"], hair.vertex_attributes["strip"]
+    positions = pointed(hair.positions, fraction=fraction, strip=strip, share=POINTED)
+    return replace(hair, texture=None, positions=positions)
 
 
 def _two_colored(mesh: Mesh, color: Color) -> Mesh:

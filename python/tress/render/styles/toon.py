@@ -11,10 +11,10 @@ import numpy as np
 
 from tress.base.params import Params, param
 from tress.base.tone_ramp import ToneParams, above, gleaming, tone_ramp
+from tress.model.melded_normals import body_normals, melded
 from tress.render.flat_color import flat_color
 from tress.render.gbuffer import GBuffer, hair_fragments
 from tress.render.light import light_direction
-from tress.render.melded_normals import body_normals, melded
 from tress.render.mesh_fragments import MeshFragments, mesh_fragments
 from tress.render.mesh_frames import is_cards, vertex_normals
 from tress.render.outline import OutlineParams, outlines
