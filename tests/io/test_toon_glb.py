@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 from ball_hair import ball_hair
+from browser import shown_by_three
 from glb_reader import parsed
 from gltf_validator import validator_report
 
+from tress.base.color import linear_to_srgb8
+from tress.base.tone_ramp import ToneParams, tone_ramp
 from tress.io.inverted_hull import inverted_hull
 from tress.io.toon_glb import ToonGlbParams, encode_toon_glb
 from tress.model.mesh import Mesh
@@ -97,3 +100,20 @@ def test_tones_are_those_of_the_light_fixed_to_the_head():
     outwards[:, 1] = np.maximum(outwards[:, 1], 0)
     cosine = outwards[:, 2] / np.linalg.norm(outwards, axis=1).clip(1e-9)
     np.testing.assert_allclose(coordinates[:, 0], 0.5 + 0.5 * cosine, atol=1e-4)
+
+
+def test_three_js_shows_the_tones_as_they_are(tmp_path):
+    """Whatever its lights: nearly all pixels of hair have one of the tones that Tress draws, or the ink of lines."""
+    params = ToonGlbParams(ring_width=0.0)
+    (tmp_path / "a.glb").write_bytes(encode_toon_glb(HAIR, **COLORS, params=params))
+    shown = shown_by_three(tmp_path / "a.glb", tmp_path)
+    assert shown.errors == [] and {"hair_0", "hair_0_lines", "head_lines"} <= set(shown.meshes)
+    color = np.array(COLORS["color"])
+    tones = tone_ramp(ToneParams()).of(color, np.array([-1.0, 1.0]))
+    inks = params.ink * np.array([color, COLORS["skin"]])
+    allowed = linear_to_srgb8(np.concatenate([tones, inks]).astype(np.float32)).astype(int)
+    picture = shown.pictures[0][..., :3].astype(int)
+    hair = picture[shown.hair(0) > 0.999]
+    off = np.abs(hair[:, None] - allowed[None]).max(axis=2).min(axis=1)
+    near = [(np.abs(hair - one).max(axis=1) <= 3).mean() for one in allowed]
+    assert (off <= 3).mean() > 0.8 and near[0] > 0.02 and near[1] > 0.02 and near[2] > 0.005

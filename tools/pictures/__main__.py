@@ -20,6 +20,7 @@ from tools.pictures.presets import strips_presets
 from tools.pictures.runs import Run, first_run
 from tools.pictures.sheets import rows, save, side_by_side, with_points, with_strokes
 from tools.pictures.strips import keyframes_wind, levels_of_detail
+from tools.pictures.toon import toon_shading
 from tress.methods.portrait.pipeline import STAGES
 
 PREVIEWS: Mapping[str, str] = {"preview_bob": "001", "preview_long": "031"}
@@ -34,7 +35,7 @@ CAPTIONS: Mapping[str, tuple[str, ...]] = {
 def main() -> None:
     """Runs what is named, or everything; some minutes."""
     portraits = (stages_and_preview, previews, correct_layers, correct_landmarks, correct_depth)
-    everything = (*portraits, strips_presets, keyframes_wind, levels_of_detail)
+    everything = (*portraits, strips_presets, keyframes_wind, levels_of_detail, toon_shading)
     wanted = sys.argv[1:] or [make.__name__ for make in everything]
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)

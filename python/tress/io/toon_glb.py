@@ -32,7 +32,7 @@ Array = np.ndarray[Any, Any]
 Color = tuple[float, float, float]
 
 UNLIT = "KHR_materials_unlit"
-RAMP_PX, ROWS_PX = 512, 128
+RAMP_PX, ROWS_PX = 512, 512
 CLAMP_TO_EDGE, LINEAR = 33071, 9729
 
 
