@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from tress import __version__
+from tress.app.cartoon_command import cartoon
 from tress.app.convert_command import convert
 from tress.app.exit_codes import INTERRUPTED
 from tress.app.info_command import info
@@ -33,6 +34,7 @@ app = typer.Typer(
 )
 app.command()(portrait)
 app.command()(strips)
+app.command()(cartoon)
 app.command()(texture)
 app.command()(lod)
 app.command()(keyframes)

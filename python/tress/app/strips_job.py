@@ -10,6 +10,7 @@ from tress.app.saved_document import opened
 from tress.base.errors import InputError
 from tress.base.report import Report
 from tress.io.atomic import OutputFolder, write_bytes
+from tress.io.format import Format
 from tress.io.formats.registry import format_of
 from tress.io.report_file import write_report
 from tress.io.toon_glb import encode_toon_glb
@@ -65,11 +66,7 @@ def run_strips(options: StripsOptions, *, report: Report) -> Delivery:
     with OutputFolder(options.folder) as output:
         with report.stage("formats"):
             for name, form in formats.items():
-                if form.name == "glb" and style.name == "toon":
-                    data = encode_toon_glb(document, color=options.color, skin=SKIN)
-                    write_bytes(output.path / name, data)
-                else:
-                    form.write(document, output.path / name)
+                write_format(form, document, output.path / name, style=style, color=options.color)
         with report.stage("preview"):
             picture = preview(document, color=options.color, style=style)
             Image.fromarray(picture).save(output.path / "preview.png", compress_level=4)
@@ -82,6 +79,14 @@ def run_strips(options: StripsOptions, *, report: Report) -> Delivery:
         write_report(report, output.path / "report.json", facts=facts)
         files = tuple(sorted(file.relative_to(output.path) for file in output.path.rglob("*") if file.is_file()))
     return Delivery(options.folder, files)
+
+
+def write_format(form: Format, document: Document, path: Path, *, style: Style, color: Color) -> None:
+    """Writes the document; a GLB of drawn hair has ramps and inverted hulls."""
+    if form.name == "glb" and style.name == "toon":
+        write_bytes(path, encode_toon_glb(document, color=color, skin=SKIN))
+    else:
+        form.write(document, path)
 
 
 def style_of(name: str) -> Style:

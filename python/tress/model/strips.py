@@ -41,6 +41,12 @@ def visible_strips(document: Document, *, group: str = "") -> list[str]:
     return [name for name, strip in strips_in(document, group).items() if not strip.hidden]
 
 
+def shown_strips(document: Document) -> list[str]:
+    """All strips that neither are hidden nor lie in a group that is, in alphabetical order."""
+    groups = {strip.group for strip in document.of_type(Strip).values()}
+    return sorted(name for group in groups for name in visible_strips(document, group=group))
+
+
 def locked_by(document: Document, name: str) -> str:
     """The strip or group that locks the strip or group `name`: itself, a group that it is in, or "" for none."""
     record = document.records[name]

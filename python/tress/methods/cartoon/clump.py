@@ -36,31 +36,67 @@ class ClumpShape:
     radii: Any = (1.0,)
 
 
+@dataclass(frozen=True, eq=False)
+class Swept:
+    """n clumps of one make: `points` (n, U, V, 3) float64, and what they share: `weights` (U, V), knots, degrees."""
+
+    points: Array
+    weights: Array
+    knots_u: Array
+    knots_v: Array
+    degree_u: int
+    degree_v: int
+
+    def patches(self) -> list[Patch]:
+        """One surface for every clump."""
+        shared = (self.weights, self.knots_u, self.knots_v, self.degree_u, self.degree_v)
+        return [Patch(net, *shared) for net in self.points]
+
+
 def clumps(hairs: KeyHairs, *, params: ClumpParams = ClumpParams(), shape: ClumpShape = ClumpShape()) -> list[Patch]:
+    """One closed surface for every key hair, as `swept` makes them."""
+    return swept(hairs, params=params, shape=shape).patches()
+
+
+def swept(
+    hairs: KeyHairs,
+    *,
+    params: ClumpParams = ClumpParams(),
+    shape: ClumpShape = ClumpShape(),
+    radius: Array | float = 1.0,
+    twist: Array | float = 0.0,
+) -> Swept:
     """One closed surface for every key hair: u along it, v round it, normals outwards.
 
     Ring i of control points lies about the hair's control point i, moved by the radii along N and R; the last part
-    `pointiness` of the length tapers. A flat end is closed by a lid with a sharp edge, and so is the root.
+    `pointiness` of the length tapers. An end that is not pointed is closed by a lid with a sharp edge. Single hairs
+    have factors of both radii, `radius` (n,), and turn about themselves by `twist` (n,) radians from root to tip.
     Raises `InputError` for a tip shape or radii that are no numbers >= 0.
     Source: Modelling and Animating Cartoon Hair, section 3, Hair Clump Geometry, and Table 1.
     """
     found = frames(hairs.points, normals=hairs.normals)
-    count = hairs.points.shape[1]
-    part = np.linspace(0, 1, count)
-    scale = _scale(part, params, shape)
-    rings, weights, knots, degree = _rings(part, shape)
-    sideways = params.horizontal_radius * scale[:, None] * rings[..., 0]
-    upwards = params.vertical_radius * scale[:, None] * rings[..., 1]
-    nets = (
-        hairs.points[:, :, None]
-        + sideways[None, ..., None] * found.across[:, :, None]
-        + upwards[None, ..., None] * found.normal[:, :, None]
-    )
-    return [_closed(net, weights, knots, degree, flat_tip=scale[-1] > LEAST_SCALE) for net in nets]
+    part = np.linspace(0, 1, hairs.points.shape[1])
+    scale = clump_scale(part, params=params, shape=shape)
+    rings, ring_weights, knots_v, degree_v = _rings(part, shape)
+    across, normal = _twisted(found.across, found.normal, np.asarray(twist, float)[..., None] * part)
+    factor = np.asarray(radius, float)[..., None, None] * scale[:, None]
+    sideways, upwards = params.horizontal_radius * rings[..., 0], params.vertical_radius * rings[..., 1]
+    points = (factor * sideways)[..., None] * across[:, :, None] + (factor * upwards)[..., None] * normal[:, :, None]
+    points += hairs.points[:, :, None]
+    lids = (bool(scale[0] > LEAST_SCALE), bool(scale[-1] > LEAST_SCALE))
+    nets, knots_u = _closed(points, degree_v, lids=lids)
+    return Swept(nets, np.tile(ring_weights, (nets.shape[1], 1)), knots_u, knots_v, DEGREE, degree_v)
 
 
-def _scale(part: Array, params: ClumpParams, shape: ClumpShape) -> Array:
-    """(p,) part of the radii at every control point."""
+def _twisted(across: Array, normal: Array, angle: Array) -> tuple[Array, Array]:
+    if not angle.any():
+        return across, normal
+    cos, sin = np.cos(angle)[..., None], np.sin(angle)[..., None]
+    return cos * across + sin * normal, cos * normal - sin * across
+
+
+def clump_scale(part: Array, *, params: ClumpParams, shape: ClumpShape = ClumpShape()) -> Array:
+    """(p,) factor of both radii at parts (p,) of the length, from root to tip. Raises `InputError` as `swept` does."""
     radii = checked(shape.radii, name="radii", dtype=np.float64, shape=(None,))
     curve = checked(shape.tip_shape, name="tip_shape", dtype=np.float64, shape=(None, 2))
     if not len(radii) or radii.min() < 0 or not len(curve) or curve.min() < 0:
@@ -68,10 +104,11 @@ def _scale(part: Array, params: ClumpParams, shape: ClumpShape) -> Array:
     if len(curve) > 1 and (np.diff(curve[:, 0]) < 0).any():
         raise InputError("tip_shape goes back; places that rise from 0 to 1 were expected.")
     along = np.interp(part, np.linspace(0, 1, max(len(radii), 2)), np.resize(radii, max(len(radii), 2)))
+    along = np.maximum(along, LEAST_SCALE)
     if params.pointiness == 0:
         return along
     into = np.clip((part - (1 - params.pointiness)) / params.pointiness, 0, 1)
-    return along * np.maximum(np.interp(into, *curve.T), LEAST_SCALE)
+    return np.maximum(along * np.interp(into, *curve.T), LEAST_SCALE)
 
 
 def _rings(part: Array, shape: ClumpShape) -> tuple[Array, Array, Array, int]:
@@ -82,21 +119,17 @@ def _rings(part: Array, shape: ClumpShape) -> tuple[Array, Array, Array, int]:
     return mixed[:, ::-1], root.weights[::-1], -root.knots[::-1], root.degree
 
 
-def _closed(net: Array, ring_weights: Array, knots_v: Array, degree_v: int, *, flat_tip: bool) -> Patch:
-    """The swept surface with lids: rows of control points that go from the ring to its middle behind a sharp edge."""
+def _closed(nets: Array, degree_v: int, *, lids: tuple[bool, bool]) -> tuple[Array, Array]:
+    """Control points (n, U, V, 3) and knots along, with lids at the root and the tip where asked: rows that go from the
+    ring to its middle behind a sharp edge."""
     inwards = np.arange(1, DEGREE + 1)[:, None, None] / DEGREE
+    inner = uniform_knots(nets.shape[1], degree=DEGREE)[DEGREE + 1 : -DEGREE - 1]
 
     def lid(ring: Array) -> Array:
-        middle = ring[:-1].mean(axis=0) if degree_v < DEGREE else ring[:-DEGREE].mean(axis=0)
-        return ring + inwards * (middle - ring)
+        middle = ring[:, : -(DEGREE if degree_v >= DEGREE else 1)].mean(axis=1, keepdims=True)
+        return ring[:, None] + inwards * (middle - ring)[:, None]
 
-    rows = [lid(net[0])[::-1], net] + ([lid(net[-1])] if flat_tip else [])
-    inner = uniform_knots(len(net), degree=DEGREE)[DEGREE + 1 : -DEGREE - 1]
-    ends = ([-0.1], [1.1] if flat_tip else [])
-    knots = np.concatenate(
-        [np.repeat(ends[0], DEGREE + 1), [0] * DEGREE, inner, [1] * (DEGREE if flat_tip else DEGREE + 1)]
-        + ([np.repeat(ends[1], DEGREE + 1)] if flat_tip else [])
-    )
-    points = np.concatenate(rows)
-    weights = np.tile(ring_weights, (len(points), 1))
-    return Patch(points, weights, knots, knots_v, DEGREE, degree_v)
+    rows = [lid(nets[:, 0])[:, ::-1]] * lids[0] + [nets] + [lid(nets[:, -1])] * lids[1]
+    knots = [[-0.1] * (DEGREE + 1) + [0] * DEGREE if lids[0] else [0] * (DEGREE + 1), inner]
+    knots += [[1] * DEGREE + [1.1] * (DEGREE + 1) if lids[1] else [1] * (DEGREE + 1)]
+    return np.concatenate(rows, axis=1), np.concatenate(knots).astype(np.float64)

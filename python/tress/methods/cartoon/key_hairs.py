@@ -20,13 +20,14 @@ class KeyHairs:
     normals: Array
 
 
-def key_hairs(surface: Patch, *, params: KeyHairParams = KeyHairParams()) -> KeyHairs:
+def key_hairs(surface: Patch, *, params: KeyHairParams = KeyHairParams(), lengths: Array | float = 1.0) -> KeyHairs:
     """n hairs of p control points, evenly spread over the surface's parameters; taken anew for every moment of an
     animated surface, they follow it exactly.
 
     A jitter moves hairs along v by up to half their spacing times it, never off the surface, and by the same parts at
-    every moment. A length of 0 leaves a thousandth: a hair has a direction. Source: Modelling and Animating Cartoon
-    Hair, section 3: vIncr = (vMax - vMin) / (n - 1), uIncr = (uMax - uMin) / (p - 1), CP_v(u) = S(u, v).
+    every moment. `lengths` (n,) are parts of the length that single hairs have. A length of 0 leaves a thousandth: a
+    hair has a direction. Source: Modelling and Animating Cartoon Hair, section 3: vIncr = (vMax - vMin) / (n - 1),
+    uIncr = (uMax - uMin) / (p - 1), CP_v(u) = S(u, v).
 
     >>> square = nurbs.patch([[[0, 0, 0], [1, 0, 0]], [[0, 1, 0], [1, 1, 0]]], degree_u=1, degree_v=1)
     >>> found = key_hairs(square, params=KeyHairParams(hairs=3, points=5, length=0.5))
@@ -35,10 +36,11 @@ def key_hairs(surface: Patch, *, params: KeyHairParams = KeyHairParams()) -> Key
     """
     surface = surface if params.along == "u" else surface.transposed()
     (low, high), (left, right) = surface.domain_u, surface.domain_v
-    part = np.linspace(0, 1, params.points) * max(params.length, 1e-3)
+    share = np.maximum(params.length * np.broadcast_to(lengths, params.hairs), 1e-3)
+    part = np.linspace(0, 1, params.points) * share[:, None]
     along = low + (high - low) * (part if params.root == "first" else 1 - part)
     across = left + (right - left) * _places(params)
-    uv = np.stack(np.broadcast_arrays(along[None, :], across[:, None]), axis=-1).reshape(-1, 2)
+    uv = np.stack(np.broadcast_arrays(along, across[:, None]), axis=-1).reshape(-1, 2)
     shape = (params.hairs, params.points, 3)
     turned = (params.along == "v") != (params.side == "back")
     normals = nurbs.normals(surface, uv=uv) * (-1 if turned else 1)

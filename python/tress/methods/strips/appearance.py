@@ -16,6 +16,7 @@ from tress.model.mesh import Mesh
 from tress.model.pointed import pointed
 from tress.model.strip import Strip
 from tress.model.strip_mesh import strips_mesh
+from tress.model.strips import shown_strips
 from tress.render.flat_scene import FlatScene, flat_scene
 from tress.render.gbuffer import rasterise
 from tress.render.occlusion import prepared
@@ -39,6 +40,7 @@ PIECES = (3, 4)
 """Of every span along and across: fine enough for smooth light."""
 POINTED = 0.35
 """Part of the length over which drawn strips narrow to a point."""
+MEET_M = 1e-6
 UNTEXTURED = ("gouraud", "toon")
 VIEWS = (
     ("front", 0.0, 0.0),
@@ -58,7 +60,7 @@ def strips_scene(
     `drawn` is hair as drawings have it: all strips of one colour, with pointed tips, and a scalp with a sharp border.
     `for_style` has what suits a style.
     """
-    names = sorted(document.of_type(Strip))
+    names = shown_strips(document)
     head = surface_mesh(document, HEAD, where="A picture")
     meshes = {HEAD: _two_colored(head, color) if drawn else _colored(head, _skin(head, color))}
     if not names:
@@ -131,6 +133,7 @@ def _skin(mesh: Mesh, color: Color) -> Array:
 def _drawn(hair: Mesh) -> Mesh:
     fraction, strip = hair.vertex_attributes["fraction"], hair.vertex_attributes["strip"]
     positions = pointed(hair.positions, fraction=fraction, strip=strip, share=POINTED)
+    positions = np.where(_closed(hair)[:, None], hair.positions, positions)
     return replace(hair, texture=None, positions=positions)
 
 
@@ -141,6 +144,14 @@ def _two_colored(mesh: Mesh, color: Color) -> Mesh:
 
 def _all(mesh: Mesh, color: Any) -> Array:
     return np.broadcast_to(np.asarray(color, np.float32), (len(mesh.positions), 3))
+
+
+def _closed(mesh: Mesh) -> Array:
+    """(V,) bool: the vertices of strips whose first and last points are the same in every row: clumps have tips."""
+    side, strip = mesh.vertex_attributes["fraction"][:, 1], mesh.vertex_attributes["strip"]
+    left, right = np.flatnonzero(side == 0), np.flatnonzero(side == 1)
+    apart = np.abs(mesh.positions[left] - mesh.positions[right]).max(axis=1) > MEET_M
+    return np.bincount(strip[left], weights=apart, minlength=int(strip.max()) + 1)[strip] == 0
 
 
 def _noise(index: Array) -> Array:

@@ -1,15 +1,16 @@
 """Moving strips on film: a turntable that plays the motion, and its moments side by side."""
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from tress.base.params import Params, param
 from tress.base.report import Report
-from tress.methods.strips.appearance import BROWN, Color, strips_scene
+from tress.methods.strips.appearance import BROWN, Color, for_style, strips_scene
 from tress.methods.strips.bald_document import HEAD
 from tress.model.camera import Camera
 from tress.model.document import Document
@@ -20,6 +21,7 @@ from tress.render.flat_scene import flat_scene
 from tress.render.gbuffer import rasterise
 from tress.render.picture import premultiplied_rgba, srgb_rgb
 from tress.render.preview import contact_sheet
+from tress.render.style import Style
 from tress.render.styles.gouraud import GouraudStyle
 from tress.render.turntable import BACKDROP
 from tress.render.views import framed, pivot, turned
@@ -39,11 +41,19 @@ class FilmParams(Params):
 
 
 def moving_turntable(
-    document: Document, *, params: FilmParams | None = None, color: Color = BROWN, report: Report | None = None
+    document: Document,
+    *,
+    params: FilmParams | None = None,
+    color: Color = BROWN,
+    style: Style | None = None,
+    head_motion: Callable[[float], Array] | None = None,
+    report: Report | None = None,
 ) -> Iterator[Array]:
     """Frames (height, width, 3) uint8 sRGB of one turn about the upright axis, while the motion plays whole times.
 
-    Frames are made when they are asked for, in gouraud shading. Raises `InputError` for a document with nothing to see.
+    Frames are made when they are asked for, in gouraud shading unless told otherwise. With a `head_motion` (poses (7,)
+    by seconds, as `tress.dynamics.head_motion` has them) the head moves as it did where the hair was simulated. Raises
+    `InputError` for a document with nothing to see.
     """
     settings = params or FilmParams()
     begin, end = motion_span(document)
@@ -51,7 +61,9 @@ def moving_turntable(
     camera, centre = _standing(document, settings.width, settings.height, color)
     for index, time in enumerate(times):
         view = turned(camera, angle_rad=2 * math.pi * index / len(times), pivot_in_world=centre)
-        yield _frame(document, time, view, color)
+        if head_motion is not None:
+            view = replace(view, xy_from_world=view.xy_from_world @ _world_from_head(head_motion(time)))
+        yield _frame(document, time, view, color, style)
         if report is not None:
             report.progress((index + 1) / len(times))
 
@@ -100,7 +112,16 @@ def _standing(document: Document, width: int, height: int, color: Color) -> tupl
     return framed(framing, width=width, height=height), pivot(framing)
 
 
-def _frame(document: Document, time: float, view: Camera, color: Color) -> Array:
-    scene = strips_scene(document, color=color, time=time, textured=False)
+def _frame(document: Document, time: float, view: Camera, color: Color, style: Style | None = None) -> Array:
+    shown = style or GouraudStyle()
+    scene = strips_scene(document, color=color, time=time, **for_style(shown))
     seen = rasterise(scene, xy_from_world=view.xy_from_world, width=view.width, height=view.height)
-    return srgb_rgb(premultiplied_rgba(seen, style=GouraudStyle()), background=BACKDROP)
+    return srgb_rgb(premultiplied_rgba(seen, style=shown), background=BACKDROP)
+
+
+def _world_from_head(pose: Array) -> Array:
+    """(4, 4) of a quaternion x y z w and a translation."""
+    matrix = np.eye(4)
+    matrix[:3, :3] = Rotation.from_quat(pose[:4]).as_matrix()
+    matrix[:3, 3] = pose[4:]
+    return matrix
