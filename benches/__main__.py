@@ -11,7 +11,16 @@ from rich.console import Console
 from rich.table import Table
 from skimage import data
 
-from benches import bench_depth, bench_formats, bench_gabor, bench_matte, bench_motion, bench_nurbs, bench_raster
+from benches import (
+    bench_clumps,
+    bench_depth,
+    bench_formats,
+    bench_gabor,
+    bench_matte,
+    bench_motion,
+    bench_nurbs,
+    bench_raster,
+)
 from tress.base.report import Report
 from tress.methods.portrait.pipeline import reconstruct
 
@@ -63,6 +72,7 @@ BENCHES: dict[str, Callable[[], None]] = {
     "formats": bench_formats.main,
     "nurbs": bench_nurbs.main,
     "motion": bench_motion.main,
+    "clumps": bench_clumps.main,
 }
 
 if __name__ == "__main__":
