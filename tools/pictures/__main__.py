@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
+from tools.pictures.cartoon import cartoon_hair
 from tools.pictures.corrections import DEPTHS, LANDMARKS, STROKES
 from tools.pictures.photos import ASTRONAUT, photo
 from tools.pictures.presets import strips_presets
@@ -35,7 +36,7 @@ CAPTIONS: Mapping[str, tuple[str, ...]] = {
 def main() -> None:
     """Runs what is named, or everything; some minutes."""
     portraits = (stages_and_preview, previews, correct_layers, correct_landmarks, correct_depth)
-    everything = (*portraits, strips_presets, keyframes_wind, levels_of_detail, toon_shading)
+    everything = (*portraits, cartoon_hair, strips_presets, keyframes_wind, levels_of_detail, toon_shading)
     wanted = sys.argv[1:] or [make.__name__ for make in everything]
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
