@@ -34,8 +34,10 @@ def main() -> None:
 if __name__ == "__main__":
     hairs, shape = KeyHairParams(hairs=HAIRS, points=POINTS), ClumpParams(vertical_radius=0.001)
     first = swept(key_hairs(surface(0.0), params=hairs), params=shape)
-    shared = {"weights": first.weights, "knots_u": first.knots_u, "knots_v": first.knots_v}
-    grid = strip_grid([Strip(points=net, **shared) for net in first.points], pieces=PIECES)
+    strips = [
+        Strip(points=net, weights=first.weights, knots_u=first.knots_u, knots_v=first.knots_v) for net in first.points
+    ]
+    grid = strip_grid(strips, pieces=PIECES)
     seconds = []
     for moment in np.linspace(0, 2, FRAMES):
         patch = surface(moment)
