@@ -11,6 +11,7 @@ from tress.base.errors import InputError, ParameterError
 from tress.base.report import Report
 from tress.edit.attach import attach
 from tress.edit.clearances import clearances
+from tress.edit.comb import comb
 from tress.edit.cover import cover
 from tress.edit.delete import delete
 from tress.edit.detach import detach
@@ -38,6 +39,7 @@ from tress.model.strip_axes import strip_axes
 from tress.model.strip_grid import strip_grid
 from tress.model.strip_set import posed_points, resting_points, strip_set
 from tress.model.strip_shapes import flat_strip
+from tress.model.strips import strip_names
 
 RANDOM = np.random.default_rng(7)
 
@@ -482,3 +484,17 @@ def test_pushed_out_strips_are_outside_a_head_with_ears_and_a_mouth():
     after = changed(push_out, document, names=["cap"], surface="head", report=report)
     assert not report.stages[0].warnings
     assert min(clearances(after, names=["cap"], surface="head", density=5).values()) >= 0
+
+
+def test_combed_strips_cling_to_a_surface_that_the_flow_leaves():
+    document = changed(attach, hairdo(), names=["pattern"], surface="head", triangles=SCALP[::6], into="cap")
+    away = {"names": ["cap"], "surface": "head", "flow": lambda places: np.broadcast_to([0.0, 0.3, 1.0], places.shape)}
+
+    def farthest(cling):
+        combed = changed(comb, document, **away, cling=cling)
+        strips = strip_set(combed, strip_names(combed, ["cap"]))
+        return np.linalg.norm(resting_points(strips), axis=1).max()
+
+    assert farthest(1.0) < RADIUS_M + 0.03 < farthest(0.0)
+    with pytest.raises(InputError, match=r"cling of 1\.5; 0 to 1 was expected"):
+        comb(document, **away, cling=1.5)

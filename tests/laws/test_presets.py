@@ -14,23 +14,32 @@ from tress.io.formats.usd import open_document, save_document
 from tress.methods.strips.hairdo import hairdo
 from tress.methods.strips.params import StripsParams
 from tress.methods.strips.presets.registry import PRESETS, preset_of
+from tress.methods.strips.scalp_seen import VIEWS, scalp_seen
 from tress.model.atlas import Atlas
 from tress.model.document import Document
 from tress.model.head import Head
 from tress.model.strip import Strip
 from tress.model.strip_mesh import strips_mesh
+from tress.render.textures.params import TextureParams
+from tress.render.textures.strand_atlas import strand_atlas
 
 pytestmark = pytest.mark.skipif(not (DATA / "head.npz").is_file(), reason="`make assets` has not built the head")
 
 NAMES = [preset.name for preset in PRESETS]
 FEW = StripsParams(strips=150)
 REACH_M, COVERED = 0.015, 0.98
-ATLAS = Atlas(color=np.full((4, 8, 4), 255, np.uint8), regions=[[0, 0, 0.5, 1], [0.5, 0, 1, 1]])
+SEEN, MOST_SEEN = 0.02, 0.04
+"""Shares of the scalp that may show through, in the mean over the views and in any of them."""
 
 
 @cache
 def grown(name: str) -> Document:
-    return hairdo(name, params=FEW, atlas=ATLAS)
+    return hairdo(name, params=FEW, atlas=strands())
+
+
+@cache
+def strands() -> Atlas:
+    return strand_atlas(TextureParams(resolution=512), report=Report())
 
 
 def head_of(document: Document) -> Head:
@@ -57,6 +66,16 @@ def test_the_scalp_is_covered(name):
     hair = strips_mesh(document, names=sorted(document.of_type(Strip))).positions
     distance = KDTree(hair).query(scalp)[0]
     assert (distance < REACH_M).mean() >= COVERED
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_bald_place_shows_where_engines_test_the_alpha(name):
+    seen = scalp_seen(grown(name))
+    assert np.mean(list(seen.values())) <= SEEN and max(seen.values()) <= MOST_SEEN, seen
+
+
+def test_the_scalp_of_a_bald_head_is_seen_whole():
+    assert scalp_seen(bare()) == dict.fromkeys(VIEWS, pytest.approx(1))
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -12,6 +12,7 @@ from tress.model.texture import Texture
 from tress.render.flat_scene import flat_scene
 from tress.render.gbuffer import rasterise
 from tress.render.mesh_frames import mesh_frames, vertex_normals
+from tress.render.occlusion import mesh_light_transmittance
 from tress.render.picture import premultiplied_rgba
 from tress.render.strip_light import Gloss, StripSurface, highlight, lit_strips
 from tress.render.styles import STYLES
@@ -167,3 +168,13 @@ def test_strips_before_keep_light_from_what_lies_behind():
     alone = picture([far], style=style)[32, 32, 0]
     behind = picture([far, near], style=style)[32, 32, 0]
     assert behind < 0.97 * alone
+
+
+def test_light_passes_along_strips_and_not_through_them():
+    standing = flat_scene(Scene(meshes={str(k): flat(z=0.01 * k) for k in range(20)}))
+    along, through = (
+        mesh_light_transmittance(standing, towards_light=np.array(way)) for way in ([0.0, 1, 0], [0.0, 0, 1])
+    )
+    assert along.min() > 0.99
+    behind = standing.positions[:, 2] < 0.005
+    assert through[behind].mean() < 0.1 * along[behind].mean()

@@ -24,6 +24,8 @@ Flow = Callable[[Array], Array]
 """Directions (N, 3) of any length at points (N, 3), both in the head frame."""
 
 STEP_M = 0.008
+CLING_M = 0.01
+"""So far from the surface strips that cling to it head back as much as on."""
 NEAR_M = 0.04
 """Up to so far from the surface strips turn their face away from it."""
 
@@ -37,17 +39,21 @@ def comb(
     lift_m: float = 0.004,
     rise_m: float = 0.02,
     bend_m: float = 0.02,
+    cling: float = 0.0,
 ) -> Diff:
     """Lays strips along a flow: each leaves its root as it does now and turns into the flow over a length of `bend_m`.
 
     On its way it slides over the surface, `lift_m` above it from `rise_m` behind the root on, and faces away from it.
     What the strip was along its own axis it becomes along that path: its length, its widths, its waves and its curl
-    stay. The root row does not move. The flow may lead into the surface, as gravity does on top of a head.
+    stay. The root row does not move. The flow may lead into the surface, as gravity does on top of a head; where it
+    leads away, `cling` says how far strips stay at the surface all the same: 0 not at all, 1 as short or tied hair.
     Raises `InputError` where the surface is no `Head` or `Mesh`, the flow gives no directions, a length is not
     positive, a strip has no length or width, or is locked. About 1 s for 300 strips of 30 cm.
     """
     if not (0 <= lift_m < np.inf and 0 < rise_m < np.inf and 0 < bend_m < np.inf):
         raise InputError(f"A lift of {lift_m} m after {rise_m} m and a bend of {bend_m} m are none.")
+    if not 0 <= cling <= 1:
+        raise InputError(f"A cling of {cling}; 0 to 1 was expected.")
     mesh = skin(surface_mesh(document, surface, where="A strip"))
     strips = strip_set(document, list(editable_strips(document, names)))
     if not strips.names:
@@ -57,7 +63,7 @@ def comb(
     roots = np.stack([net[0].mean(axis=0) for net in nets])
     own = [(net - root) @ frame for net, root, frame in zip(nets, roots, axes, strict=True)]
     lengths = np.array([max(net[..., 0].max(), STEP_M) for net in own])
-    paths = _paths(mesh, roots, axes, lengths, flow, lift_m=lift_m, rise_m=rise_m, bend_m=bend_m)
+    paths = _paths(mesh, roots, axes, lengths, flow, lift_m=lift_m, rise_m=rise_m, bend_m=bend_m, cling=cling)
     fits: dict[tuple[bytes, ...], Array] = {}
     shifts = [
         _along_path(record, net, paths, index, fits) - before
@@ -86,7 +92,16 @@ class _Paths:
 
 
 def _paths(
-    mesh: Mesh, roots: Array, axes: Array, lengths: Array, flow: Flow, *, lift_m: float, rise_m: float, bend_m: float
+    mesh: Mesh,
+    roots: Array,
+    axes: Array,
+    lengths: Array,
+    flow: Flow,
+    *,
+    lift_m: float,
+    rise_m: float,
+    bend_m: float,
+    cling: float,
 ) -> _Paths:
     """Where hair goes from its root: with its momentum, the flow, and the surface in the way."""
     count = max(2, int(np.ceil(lengths.max() / STEP_M)))
@@ -94,16 +109,16 @@ def _paths(
     turn = (1 - np.exp(-step / bend_m))[:, None]
     here, along, normal = roots, axes[:, :, 0], axes[:, :, 2]
     start, outwards = distances(mesh, roots)
-    resting = np.ones(len(roots), bool)
+    resting, away = np.ones(len(roots), bool), np.zeros(len(roots))
     points, frames = [here], [axes]
     for index in range(1, count + 1):
-        wanted = _unit(_directions(flow, here))
+        wanted = _held(_unit(_directions(flow, here)), outwards, away, cling)
         into = np.minimum(np.einsum("ni,ni->n", wanted, outwards), 0) * resting
         along = _unit(along * (1 - turn) + (wanted - into[:, None] * outwards) * turn)
         distance, outwards = distances(mesh, here + step[:, None] * along)
         lift = start + (lift_m - start) * np.clip(index * step / rise_m, 0, 1)
         missing = np.maximum(lift - distance, 0)
-        resting = missing > 0
+        resting, away = missing > 0, distance - lift
         along = _unit(step[:, None] * along + missing[:, None] * outwards)
         here = here + step[:, None] * along
         near = np.clip(1 - distance / NEAR_M, 0.02, 1)[:, None] * turn
@@ -111,6 +126,15 @@ def _paths(
         points.append(here)
         frames.append(np.stack([along, np.cross(normal, along), normal], axis=2))
     return _Paths(np.stack(points, axis=1), np.stack(frames, axis=1), step)
+
+
+def _held(wanted: Array, outwards: Array, away: Array, cling: float) -> Array:
+    """Directions (S, 3) without what leads outwards, and back to a surface that is `away` (S,) metres too far."""
+    if not cling:
+        return wanted
+    back = np.clip(away / CLING_M, 0, 1) * np.clip(2 - away / NEAR_M, 0, 1)
+    leaving = np.maximum(np.einsum("ni,ni->n", wanted, outwards), 0) + back
+    return _unit(wanted - (cling * leaving)[:, None] * outwards)
 
 
 def _along_path(strip: Strip, own: Array, paths: _Paths, index: int, fits: dict[tuple[bytes, ...], Array]) -> Array:

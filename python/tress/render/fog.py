@@ -14,7 +14,8 @@ _CELL_M = 0.004
 
 @dataclass(frozen=True, eq=False)
 class Fog:
-    """Absorption of every cell (X, Y, Z), and the cell of every point (N,) as an index into the flat grid."""
+    """Absorption (3, X, Y, Z) of every cell for light along each axis, and the cell of every point (N,) as an index
+    into the flat grid."""
 
     absorption: Array
     cell_of_point: Array
@@ -25,17 +26,18 @@ class Fog:
         Light comes along the six directions of the axes, as much from above as from the four sides together, and a
         quarter as much from below.
         """
-        total = np.zeros_like(self.absorption)
-        for axis in range(3):
-            before = np.cumsum(self.absorption, axis=axis) - 0.5 * self.absorption
-            after = self.absorption.sum(axis=axis, keepdims=True) - before
+        total = np.zeros_like(self.absorption[0])
+        for axis, absorption in enumerate(self.absorption):
+            before = np.cumsum(absorption, axis=axis) - 0.5 * absorption
+            after = absorption.sum(axis=axis, keepdims=True) - before
             from_low, from_high = (0.25, 1.0) if axis == 1 else (0.25, 0.25)
             total += from_low * np.exp(-before) + from_high * np.exp(-after)
         return self._at_points(total / 2.25)
 
     def light(self) -> Array:
         """(N,) float32 in [0, 1]: the share of a light along the last axis, from its high end, at every point."""
-        behind = np.flip(np.cumsum(np.flip(self.absorption, axis=2), axis=2), axis=2) - 0.5 * self.absorption
+        absorption = self.absorption[2]
+        behind = np.flip(np.cumsum(np.flip(absorption, axis=2), axis=2), axis=2) - 0.5 * absorption
         return self._at_points(np.exp(-behind))
 
     def _at_points(self, values: Array) -> Array:
@@ -43,14 +45,18 @@ class Fog:
 
 
 def fog(points: Array, *, amount: Array, absorption: Callable[[Array, float], Array]) -> Fog:
-    """Points (N, 3) with an `amount` (N,) of hair each; `absorption(amounts (X, Y, Z), cell_m)` says what it takes."""
+    """Points (N, 3) with an `amount` of hair each, (N,), or (N, 3) where the axes see it differently, as they do a
+    sheet; `absorption(amounts (X, Y, Z), cell_m)` says what it takes."""
     extent = np.maximum(np.ptp(points, axis=0), 1e-6)
     cell_m = max(_CELL_M, float((extent.astype(np.float64).prod() / _MOST_CELLS) ** (1 / 3)), extent.max() / 1000)
     cell = ((points - points.min(axis=0)) / cell_m).astype(np.int64) + 1
     size = tuple(cell.max(axis=0) + 2)
     flat = (cell[:, 0] * size[1] + cell[:, 1]) * size[2] + cell[:, 2]
-    gathered = np.bincount(flat, weights=amount, minlength=int(np.prod(size))).reshape(size)
-    return Fog(absorption(gathered, cell_m), flat)
+    found = [
+        absorption(np.bincount(flat, weights=column, minlength=int(np.prod(size))).reshape(size), cell_m)
+        for column in np.atleast_2d(np.asarray(amount).T)
+    ]
+    return Fog(np.broadcast_to(np.stack(found), (3, *size)), flat)
 
 
 def frame_with_last_axis(direction: Array) -> Array:

@@ -74,20 +74,24 @@ def _fog_of_strands(scene: FlatScene, points: Array) -> Fog:
 
 
 def _fog_of_meshes(scene: FlatScene, points: Array) -> Fog:
-    """Area in every cell, as the number of layers that light has to pass."""
+    """Area in every cell as light along each axis meets it, as the number of layers that it has to pass: little where
+    it goes along the strips, as light from above does in hair that hangs."""
     weight = np.repeat([_LAYER * is_cards(mesh) for mesh in scene.meshes], np.diff(scene.first_triangle))
     return fog(
         points,
-        amount=_areas(scene.positions, scene.triangles, weight),
+        amount=_areas(points, scene.triangles, weight),
         absorption=lambda area, cell_m: gaussian_filter(area, 1.0) / cell_m**2,
     )
 
 
 def _areas(positions: Array, triangles: Array, weight: Array) -> Array:
-    """(V,) square metres that belong to every vertex: a third of the triangles around it, each times its weight."""
+    """(V, 3) square metres that belong to every vertex, projected along each axis: a third of the triangles around it,
+    each times its weight."""
     a, b, c = (positions[triangles[:, i]].astype(np.float64) for i in range(3))
-    third = weight * np.linalg.norm(np.cross(b - a, c - a), axis=1) / 6
-    return np.bincount(triangles.ravel(), weights=np.repeat(third, 3), minlength=len(positions))
+    third = weight[:, None] * np.abs(np.cross(b - a, c - a)) / 6
+    corners = triangles.ravel()
+    columns = [np.bincount(corners, weights=np.repeat(part, 3), minlength=len(positions)) for part in third.T]
+    return np.stack(columns, axis=1)
 
 
 def _lengths(points: Array, offsets: Array) -> Array:

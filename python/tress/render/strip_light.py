@@ -17,6 +17,8 @@ Array = np.ndarray[Any, Any]
 
 WRAP = 0.3
 """How far diffuse light reaches around to the side away from it."""
+LEAST = 0.12
+"""Of the sky's light, what is scattered from hair to hair into the depths."""
 SECOND = 0.35
 """Exponent of the second highlight, as a share of that of the first."""
 
@@ -52,7 +54,8 @@ def lit_strips(
     half = half / max(float(np.linalg.norm(half)), 1e-9)
     facing = surface.normal @ to_light
     body = np.clip((facing + WRAP) / (1 + WRAP), 0, 1) * (0.5 + 0.5 * _sine(surface.along @ to_light))
-    out = surface.color * (sky * surface.sky + light * surface.light * body)[:, None]
+    round_about = LEAST + (1 - LEAST) * surface.sky
+    out = surface.color * (sky * round_about + light * surface.light * body)[:, None]
     lit = light * surface.light * np.clip((facing + WRAP) / (1 + WRAP), 0, 1)
     first = highlight(surface, half=half, shift=surface.shift + gloss.tilt, exponent=gloss.exponent)
     second = highlight(surface, half=half, shift=surface.shift - gloss.tilt, exponent=SECOND * gloss.exponent)

@@ -12,6 +12,8 @@ from tress.head.scalp import scalp_roots
 from tress.model.mesh import Mesh
 
 Array = np.ndarray[Any, Any]
+Where = Callable[[Array], Array]
+"""Which (N,) bool of places (N, 3)."""
 
 CANDIDATES = 12  # for each root
 OFF_EARS_M = 0.014
@@ -32,11 +34,18 @@ class EvenRoots:
 
 
 def even_roots(
-    mesh: Mesh, *, count: int, seed: int, where: Callable[[Array], Array] | None = None, least_scalp: float = 0.5
+    mesh: Mesh,
+    *,
+    count: int,
+    seed: int,
+    where: Where | None = None,
+    least_scalp: float = 0.5,
+    most_scalp: float = 1.0,
 ) -> EvenRoots:
     """`count` places on the scalp of a mesh, each as far from the others as may be.
 
-    `where(points)` (N,) bool chooses among places (N, 3), `least_scalp` keeps them off the rim of the mask. Places
+    `where(points)` (N,) bool chooses among places (N, 3), `least_scalp` keeps them off the rim of the mask, and
+    `most_scalp` on it. Places
     right at the ears are left out, where strips would be crushed. The same seed gives the same places. Raises
     `InputError` where the mesh has no mask `scalp` or nothing is chosen.
     """
@@ -47,7 +56,7 @@ def even_roots(
         mesh.positions, triangles=mesh.triangles, scalp=scalp, count=CANDIDATES * max(count, 40), seed=seed
     )
     share = np.einsum("nk,nk->n", found.barycentric, scalp[mesh.triangles[found.triangle]])
-    allowed = share >= least_scalp
+    allowed = (share >= least_scalp) & (share <= most_scalp + 1e-6)
     if where is not None:
         allowed &= where(found.positions)
     allowed &= _off_the_ears(mesh, found.positions)

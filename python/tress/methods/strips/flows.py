@@ -8,6 +8,9 @@ from tress.edit.comb import Flow
 
 Array = np.ndarray[Any, Any]
 
+SHARP_M = 0.002
+"""Half the width of a parting."""
+
 
 def steady(direction: Any) -> Flow:
     """The same way everywhere; a length above 1 weighs more in a sum."""
@@ -15,16 +18,58 @@ def steady(direction: Any) -> Flow:
     return lambda points: np.broadcast_to(vector, points.shape)
 
 
-def parted(x_m: float = 0.0, *, back: float = 0.0, below_m: float = 0.02) -> Flow:
+def parted(x_m: float = 0.0, *, back: float = 0.0, below_m: float = 0.02, end_z_m: float = -0.035) -> Flow:
     """To both sides of a parting line on top of the head, at `x_m`, and a share of it to the `back`.
 
-    The way aside fades out on the way down, from the crown to the height `below_m`.
+    Behind its end, `end_z_m` metres before the head's middle, hair falls away from that end to all sides, without a
+    seam. The way aside fades out on the way down, from the crown to the height `below_m`.
     """
 
     def flow(points: Array) -> Array:
-        side = np.where(points[:, 0] >= x_m, 1.0, -1.0)
-        above = np.clip((points[:, 1] - below_m) / 0.06, 0, 1)
-        return np.stack([side * above, np.zeros(len(points)), -back * above], axis=1)
+        aside, behind = points[:, 0] - x_m, np.minimum(points[:, 2] - end_z_m, 0)
+        aside = np.where(np.abs(aside) < SHARP_M, np.where(aside >= 0, SHARP_M, -SHARP_M), aside)
+        reach = 0.06 + 0.04 * np.clip(-points[:, 2] / 0.03, 0, 1)
+        above = np.clip((points[:, 1] - below_m) / reach, 0, 1) / np.hypot(aside, behind)
+        zero = np.zeros(len(points))
+        forward = np.clip((points[:, 2] - end_z_m) / 0.04, 0, 1) * back * np.hypot(aside, behind)
+        return np.stack([aside * above, zero, (behind - forward) * above], axis=1)
+
+    return flow
+
+
+def over_the_ears(*, x_m: float = 0.09) -> Flow:
+    """Outwards above the ears, so that hair falls over them and not through: to `x_m` on either side."""
+
+    def flow(points: Array) -> Array:
+        x, y, z = points.T
+        beside = np.clip((x_m - np.abs(x)) / 0.008, 0, 1) * np.clip((np.abs(x) - 0.05) / 0.01, 0, 1)
+        height = np.clip((0.04 - y) / 0.01, 0, 1) * np.clip((y + 0.06) / 0.01, 0, 1)
+        there = beside * height * np.clip((0.035 - np.abs(z + 0.005)) / 0.01, 0, 1)
+        return np.stack([np.sign(x) * there, np.zeros(len(x)), np.zeros(len(x))], axis=1)
+
+    return flow
+
+
+def up_before_the_ears(*, top_m: float = 0.035, weight: float = 1.5) -> Flow:
+    """Up beside and before the ears, so that hair that is swept back goes over them and not across."""
+
+    def flow(points: Array) -> Array:
+        x, y, z = points.T
+        beside = np.clip((np.abs(x) - 0.055) / 0.01, 0, 1) * np.clip((top_m - y) / 0.02, 0, 1)
+        there = weight * beside * np.clip((z + 0.04) / 0.015, 0, 1)
+        zero = np.zeros(len(x))
+        return np.stack([zero, there, zero], axis=1)
+
+    return flow
+
+
+def inwards(*, below_m: float = -0.05, weight: float = 0.6, centre_z_m: float = -0.02) -> Flow:
+    """To the neck, below a height: tips that turn in."""
+
+    def flow(points: Array) -> Array:
+        way = np.stack([-points[:, 0], np.zeros(len(points)), centre_z_m - points[:, 2]], axis=1)
+        below = np.clip((below_m - points[:, 1]) / 0.04, 0, 1)
+        return weight * below[:, None] * way / np.linalg.norm(way, axis=1, keepdims=True).clip(0.02)
 
     return flow
 
@@ -54,7 +99,7 @@ def towards(target: Any, *, reach_m: float = 0.02) -> Flow:
     return flow
 
 
-def off_the_face(*, z_m: float = 0.035, below_m: float = 0.03) -> Flow:
+def off_the_face(*, z_m: float = 0.035, below_m: float = 0.05) -> Flow:
     """Aside and back wherever hair would hang over the face."""
 
     def flow(points: Array) -> Array:
@@ -65,12 +110,12 @@ def off_the_face(*, z_m: float = 0.035, below_m: float = 0.03) -> Flow:
     return flow
 
 
-def around_the_shoulders(*, split_m: float = -0.005, below_m: float = -0.06) -> Flow:
+def around_the_shoulders(*, split_m: float = 0.02, below_m: float = -0.08) -> Flow:
     """Before the shoulders or behind them, from the neck on: hair with z above `split_m` forwards, the rest back."""
 
     def flow(points: Array) -> Array:
         from_split = points[:, 2] - split_m
-        side = np.where(from_split > 0, 1.0, -1.0) * (0.15 + 0.55 * np.exp(-np.abs(from_split) / 0.03))
+        side = np.where(from_split > 0, 1.0, -1.0) * (0.15 + 0.45 * np.exp(-np.abs(from_split) / 0.03))
         below = np.clip((below_m - points[:, 1]) / 0.03, 0, 1) * np.clip((points[:, 1] + 0.22) / 0.05, 0, 1)
         zero = np.zeros(len(points))
         return np.stack([zero, zero, side * below], axis=1)

@@ -11,7 +11,7 @@ from tress.edit.cover import cover
 from tress.edit.push_out import push_out
 from tress.methods.strips.bald_document import HEAD, bald_document
 from tress.methods.strips.edited import edited
-from tress.methods.strips.layers import HAIR, OVER
+from tress.methods.strips.layers import CAP, EDGE, HAIR, OVER
 from tress.methods.strips.params import StripsParams
 from tress.methods.strips.presets.registry import preset_of
 from tress.model.atlas import Atlas
@@ -61,12 +61,20 @@ def hairdo(
 def covered(document: Document, atlas: Atlas) -> Document:
     """The document with all strips covered with the regions of an atlas, in turn.
 
-    Atlases begin with their densest cards: those go to every layer but the outermost, which has them all.
+    Atlases begin with their densest cards: the cap has the densest quarter, layers above it the denser half, the
+    outermost all, and the hairline those in the middle.
     """
     document = edited(document, add, records={ATLAS: atlas})
-    count = len(atlas.regions)
     for name, group in document.of_type(Group).items():
         if group.parent == HAIR:
-            few = count if name == OVER else max(count // 2, 1)
-            document = edited(document, cover, names=[name], atlas=ATLAS, regions=range(few))
+            regions = _regions(name, len(atlas.regions))
+            document = edited(document, cover, names=[name], atlas=ATLAS, regions=regions)
     return document
+
+
+def _regions(group: str, count: int) -> range:
+    if group == CAP:
+        return range(max(count // 4, 1))
+    if group == EDGE:
+        return range(count // 4, max(3 * count // 4, 1))
+    return range(count if group == OVER else max(count // 2, 1))

@@ -17,7 +17,7 @@ from tress.model.document import Document
 from tress.model.group import Group
 from tress.model.strip import Strip
 
-HAIR, OVER, PATTERN = "hair", "over", "lock"
+HAIR, CAP, OVER, EDGE, PATTERN = "hair", "cap", "over", "edge", "lock"
 
 
 def with_layer(
@@ -31,11 +31,36 @@ def with_layer(
     lift_m: float = 0.004,
     rise_m: float = 0.02,
     bend_m: float = 0.02,
+    cling: float = 0.0,
 ) -> Document:
     """The document with copies of each pattern at its roots, in the new group `into` within `hair`, combed together.
 
     Every pattern is added, attached with the variation, and deleted; then `comb` lays the whole group along the flow.
     """
+    document = placed(document, into=into, patterns=patterns, flow=flow, variation=variation, seed=seed)
+    return edited(
+        document,
+        comb,
+        names=[into],
+        surface=HEAD,
+        flow=flow,
+        lift_m=lift_m,
+        rise_m=rise_m,
+        bend_m=bend_m,
+        cling=cling,
+    )
+
+
+def placed(
+    document: Document,
+    *,
+    into: str,
+    patterns: Iterable[tuple[Strip, EvenRoots]],
+    flow: Flow,
+    variation: Variation | None = None,
+    seed: int = 0,
+) -> Document:
+    """The same without combing: the copies stand at their roots, turned along the flow, in the patterns' shapes."""
     groups = {HAIR: Group(), into: Group(parent=HAIR)}
     document = edited(
         document, add, records={name: group for name, group in groups.items() if name not in document.records}
@@ -56,4 +81,4 @@ def with_layer(
             seed=seed + index,
         )
         document = edited(document, delete, names=[PATTERN])
-    return edited(document, comb, names=[into], surface=HEAD, flow=flow, lift_m=lift_m, rise_m=rise_m, bend_m=bend_m)
+    return document

@@ -10,6 +10,8 @@ from tress.model.strip_shapes import flat_strip
 
 Array = np.ndarray[Any, Any]
 
+LEAST_BOW, SKULL_M = 0.12, 0.09
+
 
 def lock(
     *,
@@ -17,14 +19,16 @@ def lock(
     width_m: float,
     root_width: float = 0.75,
     tip_width: float = 0.45,
-    bow: float = 0.12,
+    bow: float | None = None,
     rows: int = 8,
     columns: int = 4,
 ) -> Strip:
     """A lock of hair: widest a third of the way along, `root_width` and `tip_width` of that at its ends.
 
-    `bow` times the width is how much its middle stands out above its edges.
+    Its middle stands out above its edges by a quarter of `bow` times the width; by default as the skull does under a
+    strip of that width, and at least a little.
     """
+    bow = max(LEAST_BOW, width_m / (2 * SKULL_M)) if bow is None else bow
     strip = flat_strip(length_m=length_m, width_m=1.0, rows=rows, columns=columns)
     t = np.linspace(0, 1, rows)[:, None]
     profile = np.where(
