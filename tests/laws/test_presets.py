@@ -28,7 +28,7 @@ pytestmark = pytest.mark.skipif(not (DATA / "head.npz").is_file(), reason="`make
 NAMES = [preset.name for preset in PRESETS]
 FEW = StripsParams(strips=150)
 REACH_M, COVERED = 0.015, 0.98
-SEEN, MOST_SEEN = 0.02, 0.04
+SEEN, MOST_SEEN = 0.03, 0.06
 """Shares of the scalp that may show through, in the mean over the views and in any of them."""
 
 
@@ -70,7 +70,7 @@ def test_the_scalp_is_covered(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_no_bald_place_shows_where_engines_test_the_alpha(name):
-    seen = scalp_seen(grown(name))
+    seen = scalp_seen(hairdo(name, atlas=strands()))
     assert np.mean(list(seen.values())) <= SEEN and max(seen.values()) <= MOST_SEEN, seen
 
 

@@ -54,6 +54,5 @@ def with_parting(
             seed=seed,
             lift_m=lift_m,
             rise_m=0.05,
-            cling=0.4,
         )
     return document

@@ -26,7 +26,7 @@ FALL = added(
     parted(0.0, back=0.2, end_z_m=CROWN_Z_M),
     over_the_ears(),
     off_the_face(z_m=0.05),
-    inwards(below_m=-0.04, weight=1.0),
+    inwards(weight=0.8),
 )
 FRINGE_FALL = steady((0, -1, 0.5))
 ROW_M, BROW_WAY_M = 0.01, 0.125
@@ -55,7 +55,6 @@ def bob(document: Document, params: StripsParams) -> Document:
             seed=params.seed + 100 * index,
             lift_m=lift_m,
             rise_m=0.04,
-            cling=0.4,
         )
     at_crown = even_roots(mesh, count=params.count(CROWN), seed=params.seed, where=_at_crown)
     document = with_layer(
@@ -67,7 +66,6 @@ def bob(document: Document, params: StripsParams) -> Document:
         seed=params.seed + 900,
         lift_m=0.007,
         rise_m=0.05,
-        cling=0.4,
     )
     roots = even_roots(mesh, count=params.count(FRINGE), seed=params.seed + 7, where=_above_the_forehead)
     return with_layer(

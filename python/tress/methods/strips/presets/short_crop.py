@@ -21,12 +21,14 @@ Array = np.ndarray[Any, Any]
 CROWN = (0.012, 0.085, -0.055)
 BEFORE_CROWN, OVER_CROWN = (0.012, 0.098, -0.030), steady((-0.2, -0.8, -0.6))
 """Where the strips begin that lie over the middle of the whorl, and their way."""
-TOP_M = 0.065
+TOP_M = 0.085
+CAP = 0.36
+"""Share of the strips in the cap: they are short, so that there are many."""
 FLOW = added(steady((0, -0.6, 0.12)), whorl(CROWN, swirl=0.3, reach_m=0.09))
 LAYERS = (
-    ("under", 0.36, 0.042, 0.016, 0.0045),
+    ("under", 0.30, 0.042, 0.016, 0.0045),
     ("middle", 0.32, 0.046, 0.012, 0.006),
-    ("over", 0.30, 0.050, 0.009, 0.0075),
+    ("over", 0.27, 0.050, 0.009, 0.0075),
 )
 """Group, share of the strips, length, width and lift in metres."""
 BELOW_M, SHORTER = (0.05, 0.01, -0.03), (1.0, 0.85, 0.65, 0.45)
@@ -41,7 +43,7 @@ IRREGULAR = Variation(
 def short_crop(document: Document, params: StripsParams) -> Document:
     """Short all round, out of a whorl at the crown."""
     mesh = surface_mesh(document, HEAD, where="A preset")
-    document = with_cap(document, params, flow=_close, length_m=0.042, where=_clear_of_the_ears)
+    document = with_cap(document, params, flow=_close, share=CAP, length_m=0.05, where=_clear_of_the_ears)
     for index, (name, share, length_m, width_m, lift_m) in enumerate(LAYERS):
         roots = even_roots(mesh, count=params.count(share), seed=params.seed + index, where=_clear_of_the_ears)
         document = with_layer(
@@ -92,7 +94,7 @@ def _close(points: Array) -> Array:
 
 def _clear_of_the_ears(points: Array) -> Array:
     """Not right above them, where short hair would stand off: longer hair from above lies there."""
-    return (points[:, 1] > 0.038) | (np.abs(points[:, 2] + 0.003) > 0.034)
+    return (points[:, 1] > 0.031) | (np.abs(points[:, 2] + 0.003) > 0.034)
 
 
 def _tapered(roots: EvenRoots, params: StripsParams, length_m: float, width_m: float) -> list[tuple[Strip, EvenRoots]]:

@@ -51,7 +51,6 @@ def side_parting(document: Document, params: StripsParams) -> Document:
             seed=params.seed + 100 * index,
             lift_m=lift_m,
             rise_m=0.04,
-            cling=0.4,
         )
     return with_parting(
         document,
