@@ -93,6 +93,16 @@ def test_what_cannot_be_done_is_said(tress, saved, monkeypatch, arguments, code,
     assert sorted(saved.parent.iterdir()) == before
 
 
+@pytest.mark.parametrize("suffix", [form.suffixes[0] for form in FORMATS if form.strands_alone])
+def test_strips_are_not_converted_into_an_empty_file(tress, tmp_path, suffix):
+    path = tmp_path / "strips.usdc"
+    format_of(path).write(ball_hair(6), path)
+    said = tress("convert", path, path.with_suffix(suffix))
+    assert said.code == 2 and "6 strips and no strands" in said.err and said.err.count("\n") == 1
+    assert not path.with_suffix(suffix).exists()
+    assert tress("convert", path, path.with_suffix(".obj")).code == 0
+
+
 def test_errors_are_json_where_that_was_asked_for(tress, saved):
     said = tress("convert", saved, saved.with_name("hair.fbx"), "--json")
     assert json.loads(said.out)["exit_code"] == said.code == 2

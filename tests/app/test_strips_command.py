@@ -52,6 +52,8 @@ def test_a_saved_head_carries_the_hair_and_json_is_one_object(tress, tmp_path):
         (["--color", "red"], "no colour"),
         (["--head", "absent.usdc"], "does not exist"),
         (["--formats", "xyz"], "xyz"),
+        (["--formats", "usdc,ply"], ".ply holds strands alone, not strips; some of usdc"),
+        (["--formats", " ,"], "names no format"),
     ],
 )
 def test_wrong_input_gets_one_sentence_and_leaves_nothing(tress, tmp_path, arguments, words):

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from ball_hair import ball_hair
 from small_portrait import portrait
 
 from tress.base.errors import FormatError, InputError, OutputError
@@ -75,6 +76,16 @@ def test_an_empty_document_is_written_or_refused_in_a_sentence(form, tmp_path):
     except InputError as error:
         assert "\n" not in str(error)
         assert list(tmp_path.iterdir()) == []
+
+
+@every_format
+def test_strips_are_written_or_refused_in_a_sentence(form, tmp_path):
+    if not form.strands_alone:
+        assert written(form, tmp_path, ball_hair(6)).stat().st_size > 1000
+        return
+    with pytest.raises(InputError, match=r"holds strands alone, and the document has 6 strips and no strands"):
+        written(form, tmp_path, ball_hair(6))
+    assert list(tmp_path.iterdir()) == []
 
 
 @every_format

@@ -17,7 +17,8 @@ def convert(
 ) -> None:
     """Write a saved file in another format. What that format cannot hold is left out.
 
-    Read are .usdc, .usda, .usd, .hair, .ply, .obj and .npz; written are these and .glb.
+    Read are .usdc, .usda, .usd, .hair, .ply, .obj and .npz; written are these and .glb. Strips go into .usdc, .glb and
+    .obj; the others hold strands alone.
 
     Examples:
 

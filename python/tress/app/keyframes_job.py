@@ -6,12 +6,12 @@ from pathlib import Path
 from PIL import Image
 
 from tress.app.saved_document import opened
+from tress.app.strip_formats import strip_formats
 from tress.base.errors import InputError
 from tress.base.report import Report
 from tress.edit.delete import delete
 from tress.edit.keyframe import set_keyframes
 from tress.io.atomic import OutputFolder
-from tress.io.formats.registry import format_of
 from tress.io.keyframes_json import read_keyframes_json
 from tress.io.report_file import write_report
 from tress.methods.strips.edited import edited
@@ -50,7 +50,7 @@ class Delivery:
 
 def run_keyframes(options: KeyframesOptions, *, report: Report) -> Delivery:
     """Moves and delivers. Raises the errors of both; then nothing was written."""
-    formats = {f"hair.{ending}": format_of(Path(f"hair.{ending}")) for ending in options.formats}
+    formats = strip_formats(options.formats)
     checked_films(options.films)
     with report.stage("read"):
         document = opened(options.source)

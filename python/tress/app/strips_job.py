@@ -7,11 +7,11 @@ from pathlib import Path
 from PIL import Image
 
 from tress.app.saved_document import opened
+from tress.app.strip_formats import strip_formats
 from tress.base.errors import InputError
 from tress.base.report import Report
 from tress.io.atomic import OutputFolder, write_bytes
 from tress.io.format import Format
-from tress.io.formats.registry import format_of
 from tress.io.report_file import write_report
 from tress.io.toon_glb import encode_toon_glb
 from tress.methods.strips.appearance import BROWN, SKIN, Color, for_style, preview, strips_scene
@@ -58,7 +58,7 @@ def run_strips(options: StripsOptions, *, report: Report) -> Delivery:
     """Grows the hairdo and delivers it. Raises the errors of both; then nothing was written."""
     preset_of(options.preset)
     style, films = style_of(options.style), checked_films(options.films)
-    formats = {f"hair.{ending}": format_of(Path(f"hair.{ending}")) for ending in options.formats}
+    formats = strip_formats(options.formats)
     head = None if options.head is None else fitted_head(options.head)
     with report.stage("strands"):
         atlas = strand_atlas(texture_params(options), report=report)

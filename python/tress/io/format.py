@@ -31,7 +31,8 @@ class Format:
     `ALPHA`, `RADIUS`, `HEAD` (positions and triangles), `CAMERA` and `DOCUMENT` (everything); `nearly` what comes back
     within `tolerance`. `write` raises `OutputError`, and `InputError` where the format cannot hold the document; `read`
     raises `FormatError`. Writing is deterministic, and the file appears whole or not at all. `companions` finds the
-    files that were written beside a file for it, now or earlier.
+    files that were written beside a file for it, now or earlier. `strands_alone`: it holds no meshes and no strips, and
+    refuses documents without strands.
     """
 
     name: str
@@ -42,3 +43,4 @@ class Format:
     nearly: frozenset[str] = frozenset()
     tolerance: float = 0.0
     companions: Callable[[Path], list[Path]] = no_companions
+    strands_alone: bool = False

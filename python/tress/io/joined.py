@@ -2,8 +2,24 @@
 
 import numpy as np
 
-from tress.model.evaluate import Scene
+from tress.base.errors import InputError
+from tress.model.document import Document
+from tress.model.evaluate import Scene, evaluate
 from tress.model.strands import Strands
+from tress.model.strip import Strip
+
+
+def strands_alone(document: Document, *, form: str) -> Strands:
+    """All strands of a document as one, for the format `form`, which holds nothing else.
+
+    Raises `InputError` where the document has no strands, so that no file is written that is empty.
+    """
+    scene = evaluate(document)
+    if scene.strands:
+        return joined_strands(scene)
+    strips = len(document.of_type(Strip))
+    found = f"{strips} strips and no strands" if strips else "no strands"
+    raise InputError(f"{form} holds strands alone, and the document has {found}; .usdc, .glb and .obj hold the rest.")
 
 
 def joined_strands(scene: Scene) -> Strands:

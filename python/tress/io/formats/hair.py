@@ -18,9 +18,8 @@ from tress.base.errors import FormatError, InputError
 from tress.io.atomic import write_bytes
 from tress.io.file_bytes import read_bytes
 from tress.io.format import ALPHA, COLOR, RADIUS, STRANDS, Format
-from tress.io.joined import joined_strands
+from tress.io.joined import strands_alone
 from tress.model.document import Document
-from tress.model.evaluate import evaluate
 from tress.model.strands import Strands
 
 HEADER = struct.Struct("<4sIIIIff3f88s")
@@ -79,8 +78,8 @@ def decode_hair(data: bytes) -> Strands:
 
 
 def write_hair(document: Document, path: Path) -> None:
-    """Writes all strands of a document."""
-    write_bytes(path, encode_hair(joined_strands(evaluate(document))))
+    """Writes all strands of a document. Raises `InputError` where it has none."""
+    write_bytes(path, encode_hair(strands_alone(document, form=".hair")))
 
 
 def read_hair(path: Path) -> Document:
@@ -96,6 +95,7 @@ FORMAT = Format(
     keeps=frozenset({STRANDS, COLOR, RADIUS}),
     nearly=frozenset({ALPHA}),
     tolerance=2.0**-24,
+    strands_alone=True,
 )
 
 

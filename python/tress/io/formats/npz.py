@@ -17,10 +17,9 @@ from tress.io.archive import DAMAGE, check_size
 from tress.io.atomic import atomic_path
 from tress.io.file_bytes import read_bytes
 from tress.io.format import CAMERA, STRANDS, Format
-from tress.io.joined import joined_strands
+from tress.io.joined import strands_alone
 from tress.model.camera import Camera
 from tress.model.document import Document
-from tress.model.evaluate import evaluate
 from tress.model.strands import Strands
 
 Array = np.ndarray[Any, Any]
@@ -51,11 +50,11 @@ def write_reconstruction(strands: Strands, path: Path, *, camera: Camera, maps: 
 
 
 def write_npz(document: Document, path: Path) -> None:
-    """Writes the strands and the one camera of a document, without maps. Raises `InputError` without a camera."""
-    cameras = document.of_type(Camera)
+    """Writes the strands and the one camera of a document, without maps. Raises `InputError` where either is absent."""
+    strands, cameras = strands_alone(document, form=".npz"), document.of_type(Camera)
     if len(cameras) != 1:
         raise InputError(f"The document has {len(cameras)} cameras; a reconstruction has one.")
-    write_reconstruction(joined_strands(evaluate(document)), path, camera=next(iter(cameras.values())))
+    write_reconstruction(strands, path, camera=next(iter(cameras.values())))
 
 
 def read_npz(path: Path) -> Document:
@@ -76,7 +75,7 @@ def read_npz(path: Path) -> Document:
     return Document({"hair": strands, "photo": camera})
 
 
-FORMAT = Format("npz", (".npz",), write_npz, read_npz, keeps=frozenset({STRANDS, CAMERA}))
+FORMAT = Format("npz", (".npz",), write_npz, read_npz, keeps=frozenset({STRANDS, CAMERA}), strands_alone=True)
 
 
 def _checked_maps(maps: Maps, size: tuple[int, int]) -> dict[str, Array]:

@@ -16,9 +16,8 @@ from tress.base.errors import FormatError, InputError
 from tress.io.atomic import write_bytes
 from tress.io.file_bytes import read_bytes
 from tress.io.format import ALPHA, COLOR, RADIUS, STRANDS, Format
-from tress.io.joined import joined_strands
+from tress.io.joined import strands_alone
 from tress.model.document import Document
-from tress.model.evaluate import evaluate
 from tress.model.strands import Strands
 
 Array = np.ndarray[Any, Any]
@@ -89,8 +88,8 @@ def decode_ply(data: bytes) -> Strands:
 
 
 def write_ply(document: Document, path: Path) -> None:
-    """Writes all strands of a document."""
-    write_bytes(path, encode_ply(joined_strands(evaluate(document))))
+    """Writes all strands of a document. Raises `InputError` where it has none."""
+    write_bytes(path, encode_ply(strands_alone(document, form=".ply")))
 
 
 def read_ply(path: Path) -> Document:
@@ -106,6 +105,7 @@ FORMAT = Format(
     keeps=frozenset({STRANDS, RADIUS}),
     nearly=frozenset({COLOR, ALPHA}),
     tolerance=0.005,
+    strands_alone=True,
 )
 
 
