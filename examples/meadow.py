@@ -103,10 +103,12 @@ def picture(document: Document) -> Array:
         "leaves": colored(document, "leaves", LEAF, 2),
     }
     cos, sin, scale = np.cos(SLOPE_RAD), np.sin(SLOPE_RAD), PX_PER_METRE
-    camera = np.array([[scale, 0, 0, WIDTH / 2], [0, -scale * cos, scale * sin, 0.66 * HEIGHT], [0, 0, 0, 1]])
+    camera = np.array([[scale, 0, 0, WIDTH / 2], [0, -scale * cos, scale * sin, 0.74 * HEIGHT], [0, 0, 0, 1]])
     seen = rasterise(flat_scene(Scene(meshes=meshes)), xy_from_world=camera, width=WIDTH, height=HEIGHT)
     return srgb_rgb(premultiplied_rgba(seen, style=PhotoStyle()), background=SKY)
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("usage: python examples/meadow.py OUT.png")
     cv2.imwrite(sys.argv[1], picture(meadow())[..., ::-1])

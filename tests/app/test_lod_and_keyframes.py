@@ -8,6 +8,7 @@ import pytest
 from ball_hair import ball_hair
 from glb_reader import parsed
 from gltf_validator import validator_report
+from PIL import Image
 
 from tress.io.formats.registry import format_of
 from tress.model.evaluate import evaluate
@@ -44,7 +45,10 @@ def test_levels_are_files_that_agree_with_their_description(tress, hair, tmp_pat
         (("--lod", "many"), "whole numbers with commas"),
         (("--lod", "10,20"), "positive numbers that fall"),
         (("--lod", "40", "--keep-all"), "24 strips that must stay; at least 48"),
+        (("--lod", "40", "--keep-all"), "(all stay, as asked)"),
+        (("--lod", "1"), "(one of every group and atlas stays)"),
         (("--alpha", "dither"), "one of mask, blend"),
+        (("--padding", "abc"), "'abc' is not a valid int"),
     ],
 )
 def test_wrong_levels_are_refused_in_one_line(tress, hair, tmp_path, arguments, message):
@@ -117,7 +121,44 @@ def test_wrong_keyframes_are_refused_in_one_line(tress, hair, tmp_path, content,
 
 def test_an_unknown_motion_and_target_are_refused(tress, hair, tmp_path):
     assert "one of sway, wind" in tress("keyframes", hair, "-o", tmp_path / "out", "--motion", "earthquake").err
-    assert "'nobody'" in tress("keyframes", hair, "-o", tmp_path / "out", "--target", "nobody").err
+    said = tress("keyframes", hair, "-o", tmp_path / "out", "--target", "nobody")
+    assert "'nobody'" in said.err and "its groups are crown, sides" in said.err
+    said = tress("keyframes", hair, "-o", tmp_path / "out", "--style", "oil")
+    assert said.code == 2 and "one of" in said.err and "textured" in said.err
+    said = tress("keyframes", hair, "-o", tmp_path / "out", "--amplitude", "abc")
+    assert said.code == 2 and said.err.startswith("tress: ") and "'abc' is not a valid float" in said.err
+    assert said.err.count("\n") == 1
+
+
+def test_every_level_has_its_line_and_no_panel_is_empty(tress, hair, tmp_path):
+    options = ("--lod", "1200,600,200", "--padding", 8, "--pixels", 40)
+    said = tress("lod", hair, "-o", tmp_path / "out", *options)
+    assert said.code == 0, said.err
+    lines = [line for line in said.out.splitlines() if line.startswith("level ")]
+    assert len(lines) == 3 and all("triangles" in line and "strips" in line for line in lines)
+    sheet = np.asarray(Image.open(tmp_path / "out" / "preview.png"))
+    far = sheet[2 * len(sheet) // 3 :]
+    quarters = np.array_split(far[8:400], 4, axis=1)
+    assert all(len(np.unique(part[:, 16:-16].reshape(-1, 3), axis=0)) > 20 for part in quarters)
+
+
+def test_a_changed_file_is_told_and_read(tress, hair, tmp_path):
+    document = format_of(hair).read(hair)
+    path = tmp_path / "hair.usda"
+    format_of(path).write(document, path)
+    path.write_text(path.read_text().replace("int64 tress:region = 0", "int64 tress:region = 1"))
+    said = tress("info", path)
+    assert (
+        said.code == 0
+        and said.err == f"tress: {path} was changed after Tress wrote it: by another program, or by damage.\n"
+    )
+    assert tress("info", hair).err == ""
+
+
+def test_a_file_without_its_textures_says_what_is_missing(tress, hair, tmp_path):
+    (tmp_path / "alone.usdc").write_bytes(hair.read_bytes())
+    said = tress("info", tmp_path / "alone.usdc")
+    assert said.code == 2 and "the folder textures belongs beside the file and moves with it" in said.err
 
 
 def test_motions_add_up_and_play_on_film(tress, hair, tmp_path):

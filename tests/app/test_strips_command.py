@@ -19,15 +19,17 @@ FEW = ("--strips", 60, "--no-turntable", "--quiet")
 
 def test_it_writes_document_mesh_picture_and_report(tress, tmp_path):
     out = tmp_path / "out"
-    said = tress("strips", "--preset", "short_crop", "-o", out, "--seed", 4, *FEW)
+    said = tress("strips", "--preset", "short_crop", "-o", out, "--seed", 4, "--color", "#a5793f", *FEW)
     assert (said.code, said.out, said.err) == (0, "", "")
     document = format_of(out / "hair.usdc").read(out / "hair.usdc")
     assert len(document.of_type(Strip)) > 40 and len(document.of_type(Head)) == 1
     (atlas,), (recipe,) = document.of_type(Atlas), document.of_type(Recipe).values()
     assert {strip.atlas for strip in document.of_type(Strip).values()} == {atlas}
-    assert recipe.seed == 4
+    assert recipe.seed == 4 and recipe.parameters["color"] == "#a5793f"
+    assert document.of_type(Head)["head"].mesh.vertex_attributes["color"].shape[1] == 3
     report = json.loads((out / "report.json").read_text())
     numbers = {stage["name"]: stage["numbers"] for stage in report["stages"]}
+    assert report["parameters"]["color"] == "#a5793f"
     assert report["preset"] == "short_crop" and numbers["push out"]["left_inside"] == 0
     width, height = Image.open(out / "preview.png").size
     assert width > 3 * height

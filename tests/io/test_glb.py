@@ -8,7 +8,8 @@ from gltf_validator import validator_report
 from hypothesis import HealthCheck, given, settings
 
 from tress.base.errors import ParameterError
-from tress.io.formats.glb import GlbParams, encode_glb, vertex_normals
+from tress.io.formats.glb import GlbParams, encode_glb
+from tress.io.mesh_normals import vertex_normals
 from tress.io.png import decode_png
 from tress.io.ribbons import RibbonParams, ribbons, thinned
 from tress.model.evaluate import Scene, evaluate

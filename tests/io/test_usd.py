@@ -1,12 +1,14 @@
 """USD keeps everything to the bit, says what other programs need, and refuses damaged files."""
 
+import warnings
+
 import numpy as np
 import pytest
 from documents import documents
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tress.base.errors import FormatError, InputError, OutputError
+from tress.base.errors import ChangedFileWarning, FormatError, InputError, OutputError
 from tress.io.formats.usd import open_document, save_document
 from tress.io.formats.usd_checks import curve_errors, document_errors
 from tress.io.usd import stage
@@ -185,7 +187,7 @@ def test_hundreds_of_damaged_tables_are_refused_or_read(tmp_path):
         ("faceVertexCounts = [3, 3]", "faceVertexCounts = [4, 2]", "other faces than triangles"),
         ("faceVertexIndices = [0,", "faceVertexIndices = [9,", "outside 0 to 3"),
         ("@./textures/", "@../textures/", "outside the folder"),
-        ("@./textures/", "@./pictures/", "could not be read"),
+        ("@./textures/", "@./pictures/", "moves with it"),
         ("primvars:scalp = [0,", "primvars:scalp = [nan,", "not finite"),
         ("int64 tress:width = 1000", 'string tress:width = "x"', "int was expected"),
         ("float[] primvars:scalp", "half[] primvars:scalp", "dtype float16"),
@@ -242,3 +244,30 @@ def test_fifty_thousand_strands_take_less_than_a_few_seconds(tmp_path):
     save_document(document, tmp_path / "hair.usdc")
     assert perf_counter() - start < 5  # 0.5 s on two idle cores; the margin is for busy machines
     assert open_document(tmp_path / "hair.usdc") == document
+
+
+def test_bits_changed_in_the_middle_are_told(tmp_path):
+    path = tmp_path / "hair.usda"
+    save_document(portrait(), path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert open_document(path) == portrait()
+    text = path.read_text()
+    path.write_text(text.replace("int64 tress:seed = 3", "int64 tress:seed = 1"))
+    assert path.read_text() != text
+    with pytest.warns(ChangedFileWarning, match="was changed after Tress wrote it"):
+        assert open_document(path).records["recipe"].seed == 1
+
+
+def test_painted_meshes_have_colours_and_normals_for_other_programs(tmp_path):
+    corner = Mesh(
+        positions=[[0, 0, 0], [1, 0, 0], [0, 0, -1]],
+        triangles=[[0, 1, 2]],
+        vertex_attributes={"color": np.float32([[1, 0, 0], [0, 0.5, 0], [0, 0, 0.25]])},
+    )
+    save_document(Document({"ground": corner}), tmp_path / "a.usda")
+    text = (tmp_path / "a.usda").read_text()
+    assert "color3f[] primvars:displayColor = [(1, 0, 0), (0, 0.5, 0), (0, 0, 0.25)]" in text
+    assert "normal3f[] normals = [(0, 1, 0), (0, 1, 0), (0, 1, 0)]" in text
+    assert open_document(tmp_path / "a.usda") == Document({"ground": corner})
+    assert document_errors(tmp_path / "a.usda") == []

@@ -13,6 +13,7 @@ from tress.app.exit_codes import INTERRUPTED
 from tress.app.info_command import info
 from tress.app.keyframes_command import keyframes
 from tress.app.lod_command import lod
+from tress.app.one_line_errors import OneLineErrors
 from tress.app.params_command import params
 from tress.app.portrait_command import portrait
 from tress.app.strips_command import strips
@@ -25,6 +26,7 @@ EPILOG = (
 
 app = typer.Typer(
     name="tress",
+    cls=OneLineErrors,
     help="Strand-based 3D hair from one portrait photograph, on an ordinary computer.",
     epilog=EPILOG,
     no_args_is_help=True,

@@ -53,6 +53,13 @@ def keyframes(
     ] = _DEFAULT.interpolation,
     seed: Annotated[int, param_option(MotionParams, "seed", panel=_MOTION)] = _DEFAULT.seed,
     formats: Annotated[str, typer.Option(help="Files to write, by ending, with commas between.")] = "usdc,glb",
+    style: Annotated[
+        str,
+        typer.Option(
+            help="How preview and film are shaded: textured (strands), gouraud (plain strips, quicker), toon or photo.",
+            metavar="NAME",
+        ),
+    ] = "textured",
     turntable: Annotated[bool, typer.Option(help="Also write the film turntable.webm, which plays the motion.")] = True,
     film: Annotated[
         str,
@@ -106,6 +113,7 @@ def keyframes(
         params=params,
         clear=clear,
         formats=tuple(name.strip().lstrip(".").lower() for name in formats.split(",") if name.strip()),
+        style=style,
         turntable=turntable,
         films=tuple(name.strip().lower() for name in film.split(",") if name.strip()),
     )

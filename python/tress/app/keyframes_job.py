@@ -7,6 +7,7 @@ from PIL import Image
 
 from tress.app.saved_document import opened
 from tress.app.strip_formats import strip_formats
+from tress.app.strips_job import style_of
 from tress.base.errors import InputError
 from tress.base.report import Report
 from tress.edit.delete import delete
@@ -22,6 +23,7 @@ from tress.model.group import Group
 from tress.model.keyframes import Keyframes
 from tress.model.strip import Strip
 from tress.render.films import checked_films, write_films
+from tress.render.style import Style
 
 
 @dataclass(frozen=True)
@@ -36,6 +38,7 @@ class KeyframesOptions:
     params: MotionParams = field(default_factory=MotionParams)
     clear: bool = False
     formats: tuple[str, ...] = ("usdc", "glb")
+    style: str = "textured"
     turntable: bool = True
     films: tuple[str, ...] = ("webm",)
 
@@ -50,10 +53,10 @@ class Delivery:
 
 def run_keyframes(options: KeyframesOptions, *, report: Report) -> Delivery:
     """Moves and delivers. Raises the errors of both; then nothing was written."""
-    formats = strip_formats(options.formats)
+    formats, style = strip_formats(options.formats), style_of(options.style)
     checked_films(options.films)
     with report.stage("read"):
-        document = opened(options.source)
+        document = opened(options.source, report=report)
     with report.stage("keyframes"):
         document = moving(document, options)
         found = document.of_type(Keyframes)
@@ -64,18 +67,18 @@ def run_keyframes(options: KeyframesOptions, *, report: Report) -> Delivery:
             with report.stage(form.name):
                 form.write(document, output.path / name)
         with report.stage("preview"):
-            _write_pictures(document, options, output.path, report)
+            _write_pictures(document, options, output.path, style, report)
         facts = {"motion": str(options.read or options.motion), "parameters": asdict(options.params)}
         write_report(report, output.path / "report.json", facts=facts)
         files = tuple(sorted(file.relative_to(output.path) for file in output.path.rglob("*") if file.is_file()))
     return Delivery(options.folder, files)
 
 
-def _write_pictures(document: Document, options: KeyframesOptions, folder: Path, report: Report) -> None:
-    Image.fromarray(film_strip(document)).save(folder / "preview.png", compress_level=4)
+def _write_pictures(document: Document, options: KeyframesOptions, folder: Path, style: Style, report: Report) -> None:
+    Image.fromarray(film_strip(document, style=style)).save(folder / "preview.png", compress_level=4)
     if options.turntable:
         film = FilmParams()
-        frames = moving_turntable(document, params=film, report=report)
+        frames = moving_turntable(document, params=film, style=style, report=report)
         write_films(folder, name="turntable", kinds=options.films, frames=frames, frames_per_sec=film.frames_per_sec)
 
 

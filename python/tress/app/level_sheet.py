@@ -12,7 +12,7 @@ from tress.methods.strips.level_likeness import level_points, spacing_for, views
 from tress.methods.strips.levels import LevelChain
 from tress.model.document import Document
 from tress.render.card_points import CardView
-from tress.render.preview import contact_sheet
+from tress.render.preview import GAP_PX, contact_sheet
 from tress.render.turntable import BACKDROP
 
 Array = np.ndarray[Any, Any]
@@ -34,8 +34,8 @@ class Comparison:
 def level_sheet(
     document: Document, chain: LevelChain, *, compared: Sequence[Comparison] = (), threshold: float = 0.5
 ) -> Array:
-    """(H, W, 3) uint8: each level near by from two sides; below, each but the first pixel by pixel at its distance,
-    and below that the first one from there."""
+    """(H, W, 3) uint8: each level near by from two sides; below, each but the first pixel by pixel at its distance, and
+    beside it the first one from there."""
     spacing = spacing_for(NEAR_PX_PER_M)
     clouds = [
         level_points(document, level, atlases=atlases, spacing_m=spacing, threshold=threshold)
@@ -45,21 +45,23 @@ def level_sheet(
     captions = [f"level {number}: {level.triangles} triangles" for number, level in enumerate(chain.levels)]
     tiles = [[_shown(each[side]) for each in near] for side in range(NEAR_VIEWS)]
     rows = [contact_sheet(row, captions=captions, height=HEIGHT_PX) for row in tiles]
-    width = round(tiles[0][0].shape[1] * HEIGHT_PX / tiles[0][0].shape[0])
     if compared:
-        rows += [_far_row(compared, width, finest=finest) for finest in (False, True)]
+        rows.append(_far_row(compared, rows[0].shape[1]))
     return np.concatenate(rows)
 
 
-def _far_row(compared: Sequence[Comparison], width: int, *, finest: bool) -> Array:
-    empty = np.full((HEIGHT_PX, width, 3), linear_to_srgb8(BACKDROP), np.uint8)
-    views = [(pair.finest if finest else pair.level)[0] for pair in compared]
-    captions = [f"level {0 if finest else pair.number} at {pair.distance_m:.1f} m" for pair in compared]
-    return contact_sheet(
-        [empty, *(_centred(_shown(view), empty) for view in views)],
-        captions=["the finest there" if finest else "where each takes over", *captions],
-        height=HEIGHT_PX,
-    )
+def _far_row(compared: Sequence[Comparison], width: int) -> Array:
+    """(H, width, 3): every level beside the finest one, as small as both are where it takes over."""
+    count = 2 * len(compared)
+    room = width - (count + 1) * GAP_PX
+    widths = [room // count + (place < room % count) for place in range(count)]
+    pictures, captions = [], []
+    for pair in compared:
+        for number, views in ((pair.number, pair.level), (0, pair.finest)):
+            empty = np.full((HEIGHT_PX, widths[len(pictures)], 3), linear_to_srgb8(BACKDROP), np.uint8)
+            pictures.append(_centred(_shown(views[0]), empty))
+            captions.append(f"level {number} at {pair.distance_m:.1f} m")
+    return contact_sheet(pictures, captions=captions, height=HEIGHT_PX)
 
 
 def _centred(picture: Array, empty: Array) -> Array:

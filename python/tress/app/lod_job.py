@@ -47,12 +47,13 @@ class Delivery:
 def run_lod(options: LodOptions, *, report: Report) -> Delivery:
     """Makes and delivers. Raises the errors of both; then nothing was written."""
     with report.stage("read"):
-        document = opened(options.source)
+        document = opened(options.source, report=report)
     with report.stage("levels"):
         chain = level_chain(document, budgets=options.budgets, params=options.levels, report=report)
-        for number, level in enumerate(chain.levels):
-            report.number(f"triangles_{number}", level.triangles)
-            report.number(f"strips_{number}", len(level.names))
+    for number, level in enumerate(chain.levels):
+        with report.stage(f"level {number}"):
+            report.number("triangles", level.triangles)
+            report.number("strips", len(level.names))
     pairs, found = _measured(document, chain, options, report) if options.measure else ((), ())
     with report.stage("motion"):
         cards = card_levels(document, chain.levels, atlases=chain.atlases, coverage=chain.height_share)

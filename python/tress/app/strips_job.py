@@ -6,6 +6,7 @@ from pathlib import Path
 
 from PIL import Image
 
+from tress.app.hex_color import hex_of_linear
 from tress.app.saved_document import opened
 from tress.app.strip_formats import strip_formats
 from tress.base.errors import InputError
@@ -14,13 +15,15 @@ from tress.io.atomic import OutputFolder, write_bytes
 from tress.io.format import Format
 from tress.io.report_file import write_report
 from tress.io.toon_glb import encode_toon_glb
-from tress.methods.strips.appearance import BROWN, SKIN, Color, for_style, preview, strips_scene
+from tress.methods.strips.appearance import BROWN, Color, for_style, preview, strips_scene
 from tress.methods.strips.bald_document import HEAD
 from tress.methods.strips.hairdo import hairdo
+from tress.methods.strips.painted_head import SKIN, painted
 from tress.methods.strips.params import StripsParams
 from tress.methods.strips.presets.registry import preset_of
 from tress.model.document import Document
 from tress.model.head import Head
+from tress.model.recipe import Recipe
 from tress.render.films import checked_films, write_films
 from tress.render.style import Style
 from tress.render.styles import STYLES
@@ -63,6 +66,7 @@ def run_strips(options: StripsOptions, *, report: Report) -> Delivery:
     with report.stage("strands"):
         atlas = strand_atlas(texture_params(options), report=report)
     document = hairdo(options.preset, params=options.params, atlas=atlas, head=head, report=report)
+    document = with_color(document, color=options.color)
     with OutputFolder(options.folder) as output:
         with report.stage("formats"):
             for name, form in formats.items():
@@ -75,7 +79,8 @@ def run_strips(options: StripsOptions, *, report: Report) -> Delivery:
                 scene = strips_scene(document, color=options.color, **for_style(style))
                 frames = turntable(scene, style=style, report=report)
                 write_films(output.path, name="turntable", kinds=films, frames=frames)
-        facts = {"preset": options.preset, "parameters": dataclasses.asdict(options.params)}
+        parameters = {**dataclasses.asdict(options.params), "color": hex_of_linear(options.color)}
+        facts = {"preset": options.preset, "parameters": parameters}
         write_report(report, output.path / "report.json", facts=facts)
         files = tuple(sorted(file.relative_to(output.path) for file in output.path.rglob("*") if file.is_file()))
     return Delivery(options.folder, files)
@@ -95,6 +100,14 @@ def style_of(name: str) -> Style:
     if name not in known:
         raise InputError(f"There is no style {name!r}; one of {', '.join(known)} was expected.")
     return known[name]()
+
+
+def with_color(document: Document, *, color: Color) -> Document:
+    """The document with its head painted for hair of that colour (linear), which its recipe then names."""
+    records = dict(painted(document, color=color).records)
+    for name, recipe in document.of_type(Recipe).items():
+        records[name] = dataclasses.replace(recipe, parameters={**recipe.parameters, "color": hex_of_linear(color)})
+    return Document(records)
 
 
 def texture_params(options: StripsOptions) -> TextureParams:

@@ -35,3 +35,7 @@ class OutputError(TressError):
 
 class CancelledError(TressError):
     """The caller asked for the work to stop."""
+
+
+class ChangedFileWarning(UserWarning):
+    """A file holds something else than was written into it: damage, or the work of another program."""

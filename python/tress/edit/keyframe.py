@@ -10,6 +10,7 @@ from tress.model.document import Document
 from tress.model.group import Group
 from tress.model.keyframes import Keyframes
 from tress.model.strip import Strip
+from tress.model.strips import groups_named
 
 
 def set_keyframes(document: Document, *, target: str, name: str = "", **fields: Any) -> Diff:
@@ -20,7 +21,9 @@ def set_keyframes(document: Document, *, target: str, name: str = "", **fields: 
     strip or group or is locked, and where `name` is another record.
     """
     if not isinstance(document.records.get(target), Strip | Group):
-        raise InputError(f"Record {target!r} is no strip or group of the document; keyframes move these.")
+        raise InputError(
+            f"Record {target!r} is no strip or group of the document; keyframes move these{groups_named(document)}."
+        )
     refuse_locked(document, [target])
     after = Keyframes(target=target, **fields)
     key = name or FreshNames(document).next(f"{target}_motion")

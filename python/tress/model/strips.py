@@ -22,7 +22,7 @@ def strip_names(document: Document, names: Iterable[str]) -> list[str]:
             groups.add(name)
         else:
             found = "absent" if record is None else f"a {type(record).__name__}"
-            raise InputError(f"Record {name!r} is {found}; a strip or a group was expected.")
+            raise InputError(f"Record {name!r} is {found}; a strip or a group was expected{groups_named(document)}.")
     if groups:
         within = {group for group in document.of_type(Group) if groups.intersection(lineage(document, group))}
         wanted |= {name for name, strip in strips.items() if strip.group in within}
@@ -60,3 +60,9 @@ def _group(document: Document, name: str) -> Group:
     record = document.records[name]
     assert isinstance(record, Group)
     return record
+
+
+def groups_named(document: Document) -> str:
+    """The groups of a document as words for a message: ": its groups are a, b"; nothing where there are none."""
+    groups = ", ".join(document.of_type(Group))
+    return f": its groups are {groups}" if groups else ""

@@ -47,7 +47,8 @@ class CardView:
 def card_points(
     cards: Sequence[Mesh], others: Sequence[Mesh] = (), *, spacing_m: float, threshold: float = 0.5
 ) -> CardPoints:
-    """Points of cards, their texture tested at `threshold`, and of other meshes in the colour of skin.
+    """Points of cards, their texture tested at `threshold`, and of other meshes in their vertex colours,
+    or else in the colour of skin.
 
     There is a point for every `spacing_m`² of cards, and four of other surfaces.
     """
@@ -102,7 +103,7 @@ def _sampled(mesh: Mesh, spacing_m: float, threshold: float, *, hair: bool) -> C
         barycentric = _barycentric(number)
         if linear is None or mesh.texture is None or mesh.corner_uv is None:
             positions = _interpolated(corners, triangle, barycentric)
-            color = np.broadcast_to(np.array(SKIN, np.float32), positions.shape)
+            color = _painted(mesh, triangle, barycentric)
         else:
             uv = _interpolated(mesh.corner_uv, triangle, barycentric)
             kept = np.flatnonzero(_tested(mesh.texture.pixels, uv, threshold))
@@ -112,6 +113,14 @@ def _sampled(mesh: Mesh, spacing_m: float, threshold: float, *, hair: bool) -> C
     positions = np.concatenate([np.zeros((0, 3), np.float32), *(part for part, _ in parts)])
     color = np.concatenate([np.zeros((0, 3), np.float32), *(part for _, part in parts)])
     return CardPoints(positions, color, np.full(len(positions), hair))
+
+
+def _painted(mesh: Mesh, triangle: Array, barycentric: Array) -> Array:
+    """(P, 3) float32: the vertex colours of a mesh at points of its triangles, or skin where it has none."""
+    color = mesh.vertex_attributes.get("color", np.zeros(0))
+    if color.shape != mesh.positions.shape:
+        return np.broadcast_to(np.array(SKIN, np.float32), (len(triangle), 3))
+    return _interpolated(color[mesh.triangles].astype(np.float32), triangle, barycentric)
 
 
 def _interpolated(corners: Array, triangle: Array, barycentric: Array) -> Array:

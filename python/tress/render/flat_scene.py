@@ -75,7 +75,7 @@ def flat_scene(
         triangles=_joined_triangles(meshes),
         meshes=meshes,
         first_triangle=np.cumsum([0, *(len(m.triangles) for m in meshes)]),
-        cutouts=_cutouts(meshes) if see_through else OPAQUE,
+        cutouts=cutouts_of(meshes) if see_through else OPAQUE,
         maps=tuple((maps or {}).get(name, {}) for name in scene.meshes),
     )
 
@@ -98,7 +98,7 @@ def strand_of_point(scene: FlatScene) -> Array:
     return np.repeat(np.arange(len(scene.offsets) - 1), np.diff(scene.offsets))
 
 
-def _cutouts(meshes: tuple[Mesh, ...]) -> Cutouts:
+def cutouts_of(meshes: tuple[Mesh, ...]) -> Cutouts:
     """The alphas of the textures that have one which is not 255 throughout."""
     pictures, of_triangle, corner_uv = [], [], []
     for mesh in meshes:

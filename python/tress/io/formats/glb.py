@@ -1,7 +1,8 @@
 """Scenes as GLB (glTF 2.0, binary), for viewers, engines and Blender.
 
-Meshes keep their picture; strands become thin ribbons (or lines) with their colours. The pictures of a reconstruction
-hold the light of the photograph already, so the materials are unlit by default: viewers show the colours as they are.
+Meshes keep their picture, or their vertex colours; strands become thin ribbons (or lines) with their colours. The
+pictures of a reconstruction hold the light of the photograph already, so materials with one are unlit by default, and
+viewers show the colours as they are; the others are lit, and have normals.
 Viewers that do not know KHR_materials_unlit fall back on a rough dielectric. glTF knows no strands, so nothing is
 read back.
 """
@@ -19,6 +20,7 @@ from tress.io.atomic import write_bytes
 from tress.io.card_levels import CardLevels, card_levels, plain_level
 from tress.io.format import Format
 from tress.io.glb_builder import ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER, LINES, TRIANGLES, GlbBuilder
+from tress.io.mesh_normals import vertex_colors, vertex_normals
 from tress.io.png import encode_png
 from tress.io.ribbons import RibbonParams, ribbons, thinned
 from tress.io.strip_glb import CardParams, add_levels
@@ -32,7 +34,7 @@ from tress.model.strip import Strip
 Array = np.ndarray[Any, Any]
 
 UNLIT = "KHR_materials_unlit"
-GREY = (0.6, 0.6, 0.6, 1.0)
+GREY, WHITE = (0.6, 0.6, 0.6, 1.0), (1.0, 1.0, 1.0, 1.0)
 CLAMP_TO_EDGE, LINEAR, LINEAR_MIPMAP_LINEAR = 33071, 9729, 9987
 
 
@@ -116,13 +118,16 @@ def _add_lines(builder: GlbBuilder, name: str, strands: Strands, params: GlbPara
 def _add_mesh(builder: GlbBuilder, name: str, mesh: Mesh, params: GlbParams) -> int:
     vertex, corner_uv, indices = _split_corners(mesh)
     attributes = {"POSITION": builder.add_accessor(mesh.positions[vertex], target=ARRAY_BUFFER)}
-    if params.light == "lit":
+    light = params.light if mesh.texture is not None else "lit"
+    if light == "lit":
         attributes["NORMAL"] = builder.add_accessor(vertex_normals(mesh)[vertex], target=ARRAY_BUFFER)
-    material: dict[str, Any] = {"pbrMetallicRoughness": {"baseColorFactor": GREY}}
+    painted = vertex_colors(mesh)
+    if painted is not None:
+        attributes["COLOR_0"] = _add_color(builder, painted[vertex])
+    material: dict[str, Any] = {"pbrMetallicRoughness": {"baseColorFactor": GREY if painted is None else WHITE}}
     if mesh.texture is not None and corner_uv is not None:
         attributes["TEXCOORD_0"] = builder.add_accessor(corner_uv, target=ARRAY_BUFFER)
         material = {"pbrMetallicRoughness": {"baseColorTexture": {"index": _add_texture(builder, name, mesh)}}}
-    light = params.light if mesh.texture is not None else "lit"
     number = _add_material(builder, name, light, material)
     return _add_node(builder, name, attributes, indices, material=number, mode=TRIANGLES)
 
@@ -140,17 +145,6 @@ def _split_corners(mesh: Mesh) -> tuple[Array, Array | None, Array]:
     bits = np.ascontiguousarray(uv).view(np.int32).astype(np.int64)
     _, first, indices = np.unique(np.column_stack([corners, bits]), axis=0, return_index=True, return_inverse=True)
     return corners[first], uv[first], indices.reshape(-1).astype(np.uint32)
-
-
-def vertex_normals(mesh: Mesh) -> Array:
-    """(V, 3) float32 unit normals: those of the triangles about a vertex, weighted by area; up where there is none."""
-    a, b, c = (mesh.positions[mesh.triangles[:, corner]].astype(np.float64) for corner in range(3))
-    face = np.cross(b - a, c - a)
-    total = np.zeros((len(mesh.positions), 3))
-    for corner in range(3):
-        np.add.at(total, mesh.triangles[:, corner], face)
-    length = np.linalg.norm(total, axis=1, keepdims=True)
-    return np.where(length > 1e-20, total / np.maximum(length, 1e-20), (0.0, 1.0, 0.0)).astype(np.float32)
 
 
 def _add_texture(builder: GlbBuilder, name: str, mesh: Mesh) -> int:

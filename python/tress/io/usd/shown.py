@@ -98,7 +98,7 @@ def _group_prims(document: Document, times: Mapping[str, tuple[float, ...]]) -> 
 
 
 def _mesh_prim(document: Document, names: list[str], times: Iterable[float]) -> Prim:
-    prim = mesh_prim("mesh", strips_mesh(document, names=names))
+    prim = mesh_prim("mesh", strips_mesh(document, names=names), normals=False)
     strips = strip_set(document, names)
     grid = strip_grid(strips.records)
     positions = {time: grid.points(posed_points(strips, time)).astype(np.float32) for time in times}

@@ -294,6 +294,10 @@ def _read_picture(folder: Path, name: str) -> Picture:
     path = (folder / name).resolve()
     if not path.is_relative_to(folder.resolve()):
         raise FormatError(f"Picture {name!r} lies outside the folder of the file.")
+    if not path.is_file():
+        raise FormatError(
+            f"{path} is missing; the folder {path.parent.name} belongs beside the file and moves with it."
+        )
     return Picture(decode_png(read_bytes(path), name=name))
 
 

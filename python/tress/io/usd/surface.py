@@ -6,6 +6,7 @@ Texture coordinates are the primvar `st`, one per corner; the picture lies besid
 import numpy as np
 
 from tress.base.errors import FormatError
+from tress.io.mesh_normals import vertex_colors, vertex_normals
 from tress.io.usd.extent import extent
 from tress.io.usd.prim import Attribute, Picture, Prim
 from tress.io.usd.primvars import attributes_of, primvars
@@ -14,8 +15,8 @@ from tress.model.mesh import Mesh
 from tress.model.texture import Texture
 
 
-def mesh_prim(name: str, mesh: Mesh) -> Prim:
-    """The prim of a mesh."""
+def mesh_prim(name: str, mesh: Mesh, *, normals: bool = True) -> Prim:
+    """The prim of a mesh. Programs that know USD alone also see its attribute `color`, and `normals`."""
     attributes = {
         "points": Attribute("point3f[]", mesh.positions),
         "faceVertexCounts": Attribute("int[]", np.full(len(mesh.triangles), 3, np.int32)),
@@ -23,6 +24,10 @@ def mesh_prim(name: str, mesh: Mesh) -> Prim:
         "subdivisionScheme": Attribute("token", "none", uniform=True),
         "extent": extent(mesh.positions),
     } | primvars(mesh.vertex_attributes, interpolation="vertex")
+    if normals:
+        attributes["normals"] = Attribute("normal3f[]", vertex_normals(mesh), "vertex")
+    if (painted := vertex_colors(mesh)) is not None:
+        attributes["primvars:displayColor"] = Attribute("color3f[]", painted, "vertex")
     if mesh.corner_uv is not None:
         attributes["primvars:st"] = Attribute("texCoord2f[]", mesh.corner_uv.reshape(-1, 2), "faceVarying")
     data = {"record": "Mesh"}

@@ -6,7 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from tress.base.color import srgb_to_linear
+from tress.io.strip_glb import CardParams
+from tress.kernel.raster import OPAQUE
 from tress.methods.strips.bald_document import HEAD
+from tress.methods.strips.painted_head import SKIN, head_colors
 from tress.model.atlas import Atlas
 from tress.model.attachment import surface_mesh
 from tress.model.camera import Camera
@@ -17,7 +21,8 @@ from tress.model.pointed import pointed
 from tress.model.strip import Strip
 from tress.model.strip_mesh import strips_mesh
 from tress.model.strips import shown_strips
-from tress.render.flat_scene import FlatScene, flat_scene
+from tress.model.texture import Texture
+from tress.render.flat_scene import FlatScene, cutouts_of, flat_scene
 from tress.render.gbuffer import rasterise
 from tress.render.occlusion import prepared
 from tress.render.picture import premultiplied_rgba, srgb_rgb
@@ -31,9 +36,8 @@ Array = np.ndarray[Any, Any]
 Color = tuple[float, float, float]
 
 BROWN: Color = (0.085, 0.038, 0.017)
-SKIN: Color = (0.50, 0.29, 0.20)
-SHADED = 0.9
-"""How far the scalp has the colour of the hair: roots that no strip stands for."""
+MARGIN = 0.96
+"""Of a picture, what a view from above fills at most."""
 TONES = 0.16
 """Spread of the strips' brightness."""
 PIECES = (3, 4)
@@ -50,6 +54,8 @@ VIEWS = (
     ("right", -90.0, 0.0),
     ("above", 0.0, 55.0),
 )
+TESTED_VIEWS = (("front, alpha test", 0.0), ("back, alpha test", 180.0))
+"""As games show the file: every texel of a strip there or not."""
 
 
 def strips_scene(
@@ -62,7 +68,7 @@ def strips_scene(
     """
     names = shown_strips(document)
     head = surface_mesh(document, HEAD, where="A picture")
-    meshes = {HEAD: _two_colored(head, color) if drawn else _colored(head, _skin(head, color))}
+    meshes = {HEAD: _two_colored(head, color) if drawn else _colored(head, head_colors(head, color=color))}
     if not names:
         return flat_scene(Scene(meshes=meshes))
     hair = strips_mesh(document, names=names, time=time, pieces=PIECES)
@@ -83,15 +89,50 @@ def for_style(style: Style) -> dict[str, bool]:
 
 
 def preview(document: Document, *, color: Color = BROWN, style: Style | None = None, height: int = 560) -> Array:
-    """(H, W, 3) uint8: the hairdo from five sides and from above, in the style `textured` unless told otherwise."""
+    """(H, W, 3) uint8: the hairdo from five sides and from above, in the style `textured` unless told otherwise.
+
+    Strips with a texture are also shown as a game shows the GLB, by an alpha test, from the front and from behind.
+    """
     shown = style or TexturedStyle()
     scene = prepared(strips_scene(document, color=color, **for_style(shown)))
     camera = framed(scene, width=round(0.72 * height), height=height)
-    pictures = [
-        view(scene, camera, style=shown, azimuth_rad=math.radians(azimuth), elevation_rad=math.radians(elevation))
-        for _, azimuth, elevation in VIEWS
-    ]
-    return contact_sheet(pictures, captions=[name for name, *_ in VIEWS], height=height)
+    pictures = {
+        caption: view(scene, camera, style=shown, azimuth_rad=math.radians(azimuth), elevation_rad=math.radians(up))
+        for caption, azimuth, up in VIEWS
+    }
+    tested = alpha_tested(scene, threshold=CardParams().threshold)
+    if tested is not scene:
+        for caption, azimuth in TESTED_VIEWS:
+            pictures[caption] = view(tested, camera, style=shown, azimuth_rad=math.radians(azimuth))
+    return contact_sheet(list(pictures.values()), captions=list(pictures), height=height)
+
+
+def alpha_tested(scene: FlatScene, *, threshold: float) -> FlatScene:
+    """The scene whose textures are opaque where their alpha is `threshold` or more, and let through all elsewhere; the
+    scene itself where none has an alpha."""
+    if scene.cutouts is OPAQUE:
+        return scene
+    meshes = tuple(_tested(mesh, threshold) for mesh in scene.meshes)
+    return replace(scene, meshes=meshes, cutouts=cutouts_of(meshes))
+
+
+def _tested(mesh: Mesh, threshold: float) -> Mesh:
+    if mesh.texture is None or mesh.texture.pixels.shape[2] != 4:
+        return mesh
+    pixels = mesh.texture.pixels.copy()
+    pixels[..., 3] = np.where(pixels[..., 3] >= 255 * threshold, 255, 0)
+    return replace(mesh, texture=Texture(pixels=pixels))
+
+
+def hair_color(document: Document) -> Color:
+    """The mean colour of the hair, linear: that of the first atlas of its strips, or brown."""
+    for strip in document.of_type(Strip).values():
+        atlas = document.records.get(strip.atlas)
+        if isinstance(atlas, Atlas) and atlas.color[..., 3].any():
+            alpha = atlas.color[..., 3:] / 255
+            red, green, blue = (srgb_to_linear(atlas.color[..., :3]) * alpha).sum(axis=(0, 1)) / alpha.sum()
+            return float(red), float(green), float(blue)
+    return BROWN
 
 
 def view(
@@ -111,7 +152,22 @@ def _seen_from(camera: Camera, scene: FlatScene, azimuth_rad: float, elevation_r
     tilt = np.eye(4)
     tilt[1:3, 1:3] = [[cos, -sin], [sin, cos]]
     tilt[:3, 3] = middle - tilt[:3, :3] @ middle
-    return Camera(xy_from_world=view.xy_from_world @ tilt, width=view.width, height=view.height)
+    return _whole(replace(view, xy_from_world=view.xy_from_world @ tilt), scene)
+
+
+def _whole(camera: Camera, scene: FlatScene) -> Camera:
+    """The camera, moved back and aside where something of the meshes would lie outside its picture."""
+    rows, size = camera.xy_from_world[:2], np.array([camera.width, camera.height])
+    seen = scene.positions @ rows[:, :3].T + rows[:, 3]
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    border = 0.5 * (1 - MARGIN) * size
+    if (low >= border).all() and (high <= size - border).all():
+        return camera
+    scale = min(1.0, float((MARGIN * size / (high - low)).min()))
+    moved = camera.xy_from_world.copy()
+    moved[:2] *= scale
+    moved[:2, 3] += size / 2 - scale * (low + high) / 2
+    return replace(camera, xy_from_world=moved)
 
 
 def _maps(document: Document, names: list[str]) -> dict[str, Array]:
@@ -123,11 +179,6 @@ def _maps(document: Document, names: list[str]) -> dict[str, Array]:
 def _colored(mesh: Mesh, color: Array) -> Mesh:
     attributes = {**mesh.vertex_attributes, "color": color.astype(np.float32)}
     return replace(mesh, vertex_attributes=attributes)
-
-
-def _skin(mesh: Mesh, color: Color) -> Array:
-    scalp = SHADED * mesh.vertex_attributes["scalp"][:, None]
-    return np.array(SKIN) * (1 - scalp) + scalp * 0.6 * np.asarray(color)
 
 
 def _drawn(hair: Mesh) -> Mesh:

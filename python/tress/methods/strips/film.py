@@ -10,8 +10,9 @@ from scipy.spatial.transform import Rotation
 
 from tress.base.params import Params, param
 from tress.base.report import Report
-from tress.methods.strips.appearance import BROWN, Color, for_style, strips_scene
+from tress.methods.strips.appearance import Color, for_style, hair_color, strips_scene
 from tress.methods.strips.bald_document import HEAD
+from tress.model.attachment import surface_mesh
 from tress.model.camera import Camera
 from tress.model.document import Document
 from tress.model.evaluate import Scene
@@ -22,7 +23,7 @@ from tress.render.gbuffer import rasterise
 from tress.render.picture import premultiplied_rgba, srgb_rgb
 from tress.render.preview import contact_sheet
 from tress.render.style import Style
-from tress.render.styles.gouraud import GouraudStyle
+from tress.render.styles.textured import TexturedStyle
 from tress.render.turntable import BACKDROP
 from tress.render.views import framed, pivot, turned
 
@@ -44,21 +45,21 @@ def moving_turntable(
     document: Document,
     *,
     params: FilmParams | None = None,
-    color: Color = BROWN,
+    color: Color | None = None,
     style: Style | None = None,
     head_motion: Callable[[float], Array] | None = None,
     report: Report | None = None,
 ) -> Iterator[Array]:
     """Frames (height, width, 3) uint8 sRGB of one turn about the upright axis, while the motion plays whole times.
 
-    Frames are made when they are asked for, in gouraud shading unless told otherwise. With a `head_motion` (poses (7,)
+    Frames are made when they are asked for, in the style `textured` unless told otherwise. With a `head_motion` (poses (7,)
     by seconds, as `tress.dynamics.head_motion` has them) the head moves as it did where the hair was simulated. Raises
     `InputError` for a document with nothing to see.
     """
     settings = params or FilmParams()
     begin, end = motion_span(document)
     times = playing_times(begin, end, settings)
-    camera, centre = _standing(document, settings.width, settings.height, color)
+    camera, centre = _standing(document, settings.width, settings.height)
     for index, time in enumerate(times):
         view = turned(camera, angle_rad=2 * math.pi * index / len(times), pivot_in_world=centre)
         if head_motion is not None:
@@ -69,15 +70,16 @@ def moving_turntable(
 
 
 def film_strip(
-    document: Document, *, moments: int = 6, azimuth: float = 40.0, height: int = 320, color: Color = BROWN
+    document: Document, *, moments: int = 6, azimuth: float = 40.0, height: int = 320, style: Style | None = None
 ) -> Array:
     """(H, W, 3) uint8: even moments of the motion side by side, seen from `azimuth` (degrees) beside the front."""
     begin, end = motion_span(document)
-    camera, centre = _standing(document, round(0.8 * height), height, color)
+    camera, centre = _standing(document, round(0.8 * height), height)
     view = turned(camera, angle_rad=math.radians(azimuth), pivot_in_world=centre)
     times = [begin + (end - begin) * index / moments for index in range(moments)]
     captions = [f"{time:.2f} s" for time in times]
-    return contact_sheet([_frame(document, time, view, color) for time in times], captions=captions, height=height)
+    frames = [_frame(document, time, view, None, style) for time in times]
+    return contact_sheet(frames, captions=captions, height=height)
 
 
 def motion_span(document: Document) -> tuple[float, float]:
@@ -98,23 +100,22 @@ def playing_times(begin: float, end: float, params: FilmParams) -> list[float]:
     return [begin + (again * span * index / count) % span for index in range(count)]
 
 
-def _standing(document: Document, width: int, height: int, color: Color) -> tuple[Camera, Array]:
+def _standing(document: Document, width: int, height: int) -> tuple[Camera, Array]:
     """A camera that keeps the hair in the picture at all moments, and what to turn about."""
     begin, end = motion_span(document)
     scenes = [
-        strips_scene(document, color=color, time=begin + (end - begin) * share, textured=False)
-        for share in (0, 0.25, 0.5, 0.75)
+        strips_scene(document, time=begin + (end - begin) * share, textured=False) for share in (0, 0.25, 0.5, 0.75)
     ]
-    head = scenes[0].meshes[0]
-    hair = np.concatenate([scene.positions[len(head.positions) :] for scene in scenes])
-    line = {"hair": Strands(points=hair, offsets=np.array([0, len(hair)]))} if len(hair) else {}
+    seen = np.concatenate([scene.positions for scene in scenes])
+    line = {"hair": Strands(points=seen, offsets=np.array([0, len(seen)]))} if len(seen) else {}
+    head = surface_mesh(document, HEAD, where="A film")
     framing = flat_scene(Scene(strands=line, meshes={HEAD: head}))
     return framed(framing, width=width, height=height), pivot(framing)
 
 
-def _frame(document: Document, time: float, view: Camera, color: Color, style: Style | None = None) -> Array:
-    shown = style or GouraudStyle()
-    scene = strips_scene(document, color=color, time=time, **for_style(shown))
+def _frame(document: Document, time: float, view: Camera, color: Color | None, style: Style | None) -> Array:
+    shown = style or TexturedStyle()
+    scene = strips_scene(document, color=color or hair_color(document), time=time, **for_style(shown))
     seen = rasterise(scene, xy_from_world=view.xy_from_world, width=view.width, height=view.height)
     return srgb_rgb(premultiplied_rgba(seen, style=shown), background=BACKDROP)
 

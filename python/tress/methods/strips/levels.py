@@ -202,9 +202,10 @@ def _plan(detail: _Detail, budget: int, number: int, params: LevelParams, tolera
     count, polygons = len(detail.kind), budget // 2
     needed = count if params.keep_all else len(np.unique(detail.kind))
     if polygons < needed:
+        why = "all stay, as asked" if params.keep_all else "one of every group and atlas stays"
         raise InputError(
             f"Level {number} has a budget of {budget} triangles for {needed} strips that must stay; "
-            f"at least {2 * needed} were expected, a polygon of two triangles for each."
+            f"at least {2 * needed} were expected, a polygon of two triangles for each ({why})."
         )
     least = _least_polygons(detail, params, tolerance_m)
     wanted = count if params.keep_all else min(count, max(int(polygons / least), needed))
