@@ -253,10 +253,10 @@ def test_bits_changed_in_the_middle_are_told(tmp_path):
         warnings.simplefilter("error")
         assert open_document(path) == portrait()
     text = path.read_text()
-    path.write_text(text.replace("int64 tress:seed = 3", "int64 tress:seed = 1"))
+    path.write_text(text.replace("int64 tress:width = 1000", "int64 tress:width = 1001"))
     assert path.read_text() != text
     with pytest.warns(ChangedFileWarning, match="was changed after Tress wrote it"):
-        assert open_document(path).records["recipe"].seed == 1
+        assert open_document(path).records["photo"].width == 1001
 
 
 def test_painted_meshes_have_colours_and_normals_for_other_programs(tmp_path):

@@ -52,9 +52,9 @@ def moving_turntable(
 ) -> Iterator[Array]:
     """Frames (height, width, 3) uint8 sRGB of one turn about the upright axis, while the motion plays whole times.
 
-    Frames are made when they are asked for, in the style `textured` unless told otherwise. With a `head_motion` (poses (7,)
-    by seconds, as `tress.dynamics.head_motion` has them) the head moves as it did where the hair was simulated. Raises
-    `InputError` for a document with nothing to see.
+    Frames are made when they are asked for, in the style `textured` unless told otherwise. With a `head_motion` (poses
+    (7,) by seconds, as `tress.dynamics.head_motion` has them) the head moves as it did where the hair was simulated.
+    Raises `InputError` for a document with nothing to see.
     """
     settings = params or FilmParams()
     begin, end = motion_span(document)
