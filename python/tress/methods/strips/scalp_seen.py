@@ -37,7 +37,7 @@ def scalp_seen(document: Document, *, threshold: float = THRESHOLD) -> dict[str,
     The alphas of the atlas are tested at `threshold`, as engines do by default. About 0.3 s.
     """
     head = surface_mesh(document, HEAD, where="A scalp")
-    within = (head.vertex_attributes["scalp"][head.triangles] > WITHIN).all(axis=1)
+    within = np.all(head.vertex_attributes["scalp"][head.triangles] > WITHIN, axis=1)
     hair = strips_mesh(document, names=sorted(document.of_type(Strip)))
     positions = np.concatenate([head.positions, hair.positions])
     triangles = np.concatenate([head.triangles, hair.triangles + len(head.positions)])
